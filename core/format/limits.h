@@ -1,0 +1,25 @@
+// What a reader refuses before it allocates. Defaults as documented in docs/operations.md; every refusal names the
+// limit. All of them are settings.
+#pragma once
+
+#include <cstdint>
+
+namespace coppice {
+
+struct ReadLimits {
+    uint64_t triangles = 20'000'000;            // stored, over all unique meshes
+    uint64_t rendered_triangles = 200'000'000;  // after expansion of instances
+    uint64_t vertices = 30'000'000;
+    uint64_t json_bytes = 64ULL << 20;
+    uint32_t json_depth = 64;
+    uint32_t nodes = 100'000;
+    uint32_t node_depth = 128;
+    uint32_t meshes_and_primitives = 65'536;
+    uint32_t accessors = 200'000;
+    uint32_t images = 512;
+    uint32_t zip_entries = 2000;
+    uint64_t zip_bytes = 1ULL << 30;  // unpacked
+    uint32_t zip_ratio = 100;         // unpacked : packed
+};
+
+}  // namespace coppice

@@ -1,0 +1,31 @@
+// Which mesh stands where.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace coppice {
+
+// A mesh placed in the world.
+struct Instance {
+    uint32_t mesh = 0;      // index into Scene::meshes
+    uint32_t node = 0;      // index into Scene::nodes
+    uint32_t in_batch = 0;  // index in the node's batch; 0 where it has none
+    Transform world = {};   // mesh coordinates to scene coordinates
+};
+
+// World transform of every node, in node order. Iterative: depth costs no stack.
+std::vector<Transform> world_transforms(const Scene& scene);
+
+// Every instance that the default scene draws, in depth-first order from the roots.
+std::vector<Instance> instances(const Scene& scene);
+
+// How many instances instances() would give, without making them.
+uint64_t instance_count(const Scene& scene);
+
+// World-space bounds of all instances: the box of every transformed position, exact.
+Bounds scene_bounds(const Scene& scene);
+
+}  // namespace coppice

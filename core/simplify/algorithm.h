@@ -1,0 +1,48 @@
+// What a simplification algorithm is: a value in the registry.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/base/watch.h"
+#include "core/mesh/mesh.h"
+#include "core/scene/transform.h"
+#include "core/simplify/parameter.h"
+
+namespace coppice {
+
+// Why a run ended. Names as in the report.
+enum class StopReason { target, error_limit, threshold, topology, bounds, locked, already_smaller, cancelled };
+std::string_view name(StopReason reason);
+
+// When to stop; whichever keeps more triangles. At least one is set, unless the algorithm has a threshold of its own.
+struct Target {
+    std::optional<uint64_t> triangles = {};        // stop at or below
+    std::optional<uint64_t> vertices = {};         // stop at or below (vertices in use)
+    std::optional<double> error_model_units = {};  // stop before the deviation exceeds it
+};
+
+struct Simplified {
+    Mesh mesh;                     // consistent; unused vertices and wedges dropped
+    double error_model_units = 0;  // largest deviation that the algorithm estimates; not a bound unless certified
+    bool certified = false;
+    StopReason stop_reason = StopReason::target;
+};
+
+struct Algorithm {
+    std::string_view id;
+    std::string_view title;
+    std::string_view citation;
+    std::span<const Parameter> parameters;
+    bool instance_aware = false;  // simplifies each unique mesh once, whatever its number of instances
+
+    // instances: world transforms of the mesh's instances (may be empty), for weights. Deterministic. Reports progress
+    // 0..1 and honours watch.stop at least every 50 ms by throwing. Never throws on a consistent mesh otherwise.
+    Simplified (*simplify)(const Mesh& mesh, std::span<const Transform> instances, const Target& target,
+                           const ParameterValues& parameters, const Watch& watch) = nullptr;
+};
+
+}  // namespace coppice
