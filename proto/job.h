@@ -38,7 +38,8 @@ struct Job {
 
 bool is_finished(JobStatus status);
 
-// {id, kind, status, stage, progress, attempts, created_at, ..., options, links {self, result, report}, report?, problem?}
+// {id, kind, status, stage, progress, attempts, created_at, ..., options, links {self, result, report},
+// report?, problem?}
 std::string print_job(const Job& job);
 
 }  // namespace coppice

@@ -15,7 +15,8 @@ namespace coppice {
 OptimizeOptions parse_options(const std::vector<std::pair<std::string, std::string>>& pairs);
 OptimizeOptions parse_options_json(std::string_view json);
 
-// Canonical JSON: given options only, sorted, no white space. Equal options print equally; parses back to the same.
+// Canonical JSON: given options only, sorted, no white space. Equal options print equally; parses back to the
+// same.
 std::string print_options(const OptimizeOptions& options);
 
 }  // namespace coppice

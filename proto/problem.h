@@ -13,12 +13,12 @@ struct Problem {
     std::string where;   // line and column, JSON pointer, byte offset or option name; may be empty
 };
 
-int http_status(ErrorCode code);           // complete: a code without a status does not compile
-std::string_view title(ErrorCode code);    // short, the same for every occurrence
+int http_status(ErrorCode code);         // complete: a code without a status does not compile
+std::string_view title(ErrorCode code);  // short, the same for every occurrence
 
 Problem to_problem(const Error& error);
-// What a caller may know of any exception: Error as it is, bad_alloc as asset_too_large, anything else as internal
-// with the given id and no what(), which belongs into the log.
+// What a caller may know of any exception: Error as it is, bad_alloc as asset_too_large, anything else as
+// internal with the given id and no what(), which belongs into the log.
 Problem to_problem(const std::exception& exception, const std::string& log_id);
 
 // application/problem+json: {type, title, status, detail, code, where?}

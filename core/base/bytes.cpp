@@ -6,7 +6,8 @@
 
 namespace coppice {
 
-static_assert(std::endian::native == std::endian::little, "glTF, GLB, STL and binary PLY are read as they lie");
+static_assert(std::endian::native == std::endian::little,
+              "glTF, GLB, STL and binary PLY are read as they lie");
 
 namespace {
 
@@ -20,7 +21,9 @@ T load(ByteView bytes, size_t offset) {
 
 }  // namespace
 
-ByteView as_bytes(std::string_view text) { return std::as_bytes(std::span(text.data(), text.size())); }
+ByteView as_bytes(std::string_view text) {
+    return std::as_bytes(std::span(text.data(), text.size()));
+}
 
 std::string_view as_text(ByteView bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -31,11 +34,19 @@ Bytes to_bytes(std::string_view text) {
     return {view.begin(), view.end()};
 }
 
-void append(Bytes& out, ByteView more) { out.insert(out.end(), more.begin(), more.end()); }
+void append(Bytes& out, ByteView more) {
+    out.insert(out.end(), more.begin(), more.end());
+}
 
-uint32_t load_u32(ByteView bytes, size_t offset) { return load<uint32_t>(bytes, offset); }
-uint16_t load_u16(ByteView bytes, size_t offset) { return load<uint16_t>(bytes, offset); }
-float load_f32(ByteView bytes, size_t offset) { return load<float>(bytes, offset); }
+uint32_t load_u32(ByteView bytes, size_t offset) {
+    return load<uint32_t>(bytes, offset);
+}
+uint16_t load_u16(ByteView bytes, size_t offset) {
+    return load<uint16_t>(bytes, offset);
+}
+float load_f32(ByteView bytes, size_t offset) {
+    return load<float>(bytes, offset);
+}
 
 void append_u32(Bytes& out, uint32_t value) {
     append(out, std::as_bytes(std::span(&value, 1)));

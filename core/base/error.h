@@ -1,5 +1,5 @@
-// The one exception of coppice, for bad input and a bad environment. Outcomes (a target that topology forbids) are
-// no errors; our own bugs are asserts.
+// The one exception of coppice, for bad input and a bad environment. Outcomes (a target that topology
+// forbids) are no errors; our own bugs are asserts.
 #pragma once
 
 #include <fmt/core.h>
@@ -12,7 +12,8 @@
 
 namespace coppice {
 
-// Stable: clients see name(code). proto/problem maps each to an HTTP status, checked complete at compile time.
+// Stable: clients see name(code). proto/problem maps each to an HTTP status, checked complete at compile
+// time.
 enum class ErrorCode : uint8_t {
     asset_malformed,              // the bytes are not what their format demands
     asset_unsupported,            // a format, or a feature of one, that is not read
@@ -55,7 +56,7 @@ enum class ErrorCode : uint8_t {
 std::string_view name(ErrorCode code);
 
 class Error : public std::exception {
-   public:
+  public:
     // where: line and column, JSON pointer, byte offset or option name; empty when the message says it all.
     Error(ErrorCode code, std::string where, std::string message)
         : code_(code), where_(std::move(where)), message_(std::move(message)) {}
@@ -65,7 +66,7 @@ class Error : public std::exception {
     const std::string& message() const { return message_; }
     const char* what() const noexcept override { return message_.c_str(); }
 
-   private:
+  private:
     ErrorCode code_;
     std::string where_;
     std::string message_;

@@ -10,7 +10,7 @@ namespace coppice {
 
 // Streaming SHA-256. Movable; not for use by two threads at once.
 class Sha256 {
-   public:
+  public:
     Sha256();
     ~Sha256();
     Sha256(Sha256&&) noexcept;
@@ -19,7 +19,7 @@ class Sha256 {
     void update(ByteView bytes);
     std::string finish_hex();  // 64 lower-case hex digits; call once
 
-   private:
+  private:
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -16,10 +16,10 @@ struct NamedFile {
     Bytes bytes;
 };
 
-// Every file of an archive, in its order; folders are left out. Everything is checked in the central directory before
-// anything is unpacked, and again while unpacking: number of entries, unpacked size, ratio, paths that leave the
-// archive, links, encryption, overlapping entries, duplicate names.
-// Throws asset_malformed, asset_unsupported (encryption, methods other than store and deflate), asset_too_large,
+// Every file of an archive, in its order; folders are left out. Everything is checked in the central
+// directory before anything is unpacked, and again while unpacking: number of entries, unpacked size, ratio,
+// paths that leave the archive, links, encryption, overlapping entries, duplicate names. Throws
+// asset_malformed, asset_unsupported (encryption, methods other than store and deflate), asset_too_large,
 // resource_forbidden.
 std::vector<NamedFile> read_zip(ByteView bytes, const ReadLimits& limits, const Watch& watch);
 

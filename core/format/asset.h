@@ -14,15 +14,17 @@ namespace coppice {
 
 // A file of an upload. Views; the caller keeps the bytes alive until read_asset returns.
 struct UploadedFile {
-    std::string path;             // as the client named it; may be empty for a raw body
-    std::string media_type = {};  // empty when not given (see api: octet-stream and the like count as not given)
+    std::string path;  // as the client named it; may be empty for a raw body
+    std::string media_type =
+        {};  // empty when not given (see api: octet-stream and the like count as not given)
     ByteView bytes = {};
 };
 
 struct Upload {
-    UploadedFile asset;                        // a model file, or a zip of one with its resources
-    std::vector<UploadedFile> resources = {};  // buffers, textures, .mtl: matched by relative path, then base name
-    std::string entry = {};                    // which file of a zip is the asset, when it holds several
+    UploadedFile asset;  // a model file, or a zip of one with its resources
+    std::vector<UploadedFile> resources =
+        {};                  // buffers, textures, .mtl: matched by relative path, then base name
+    std::string entry = {};  // which file of a zip is the asset, when it holds several
 };
 
 struct ReadAsset {
@@ -30,8 +32,8 @@ struct ReadAsset {
     Format format = Format::glb;
 };
 
-// Recognises the format (content first, then media type, then file name), resolves resources inside the upload alone,
-// checks every bound, and reads. Throws Error with asset_*, resource_* codes and where.
+// Recognises the format (content first, then media type, then file name), resolves resources inside the
+// upload alone, checks every bound, and reads. Throws Error with asset_*, resource_* codes and where.
 ReadAsset read_asset(const Upload& upload, const ReadLimits& limits, const Watch& watch);
 
 enum class Instancing { automatic, nodes, gpu, expand };
@@ -46,8 +48,9 @@ struct WrittenAsset {
     Bytes bytes;
     std::string media_type;      // application/zip where files go along
     std::string file_extension;  // "glb", "zip", ...
-    std::vector<uint64_t> mesh_bytes;  // per unique mesh: bytes of its stored geometry, for the report's savings
-    std::vector<Warning> warnings;     // what the format could not hold
+    std::vector<uint64_t>
+        mesh_bytes;                 // per unique mesh: bytes of its stored geometry, for the report's savings
+    std::vector<Warning> warnings;  // what the format could not hold
 };
 
 // Throws option_conflict where format and instancing exclude each other.

@@ -1,5 +1,5 @@
-// What a reader refuses before it allocates. Defaults as documented in docs/operations.md; every refusal names the
-// limit. All of them are settings.
+// What a reader refuses before it allocates. Defaults as documented in docs/operations.md; every refusal
+// names the limit. All of them are settings.
 #pragma once
 
 #include <cstdint>

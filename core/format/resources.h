@@ -18,7 +18,7 @@ struct ResourceFile {
 
 // Immutable; safe to use from several threads.
 class Resources {
-   public:
+  public:
     Resources() = default;
     // folder: that of the asset inside the upload ("" at the root, else without a slash at its end); URIs are
     // relative to it.
@@ -30,8 +30,9 @@ class Resources {
     // resource_missing for what the upload does not have, naming what it has.
     ByteView find(std::string_view uri, std::string_view where) const;
 
-    // The same for a plain path, which is not percent-decoded. Null when the upload has no such file: first the exact
-    // path relative to the asset's folder, then the base name if it is unique. Throws resource_forbidden as find does.
+    // The same for a plain path, which is not percent-decoded. Null when the upload has no such file: first
+    // the exact path relative to the asset's folder, then the base name if it is unique. Throws
+    // resource_forbidden as find does.
     const ResourceFile* find_path(std::string_view path, std::string_view where) const;
 
     // "; the upload has a.png, b.bin and 3 more", for messages.
@@ -39,7 +40,7 @@ class Resources {
 
     const std::vector<ResourceFile>& files() const { return files_; }
 
-   private:
+  private:
     std::vector<ResourceFile> files_;
     std::string folder_;
 };
@@ -47,8 +48,8 @@ class Resources {
 // %41 -> A, once. Throws resource_forbidden on a malformed escape.
 std::string percent_decoded(std::string_view uri, std::string_view where);
 
-// Throws resource_forbidden unless the path is relative and stays inside: no scheme, no leading slash, no "..", no
-// backslash, no NUL.
+// Throws resource_forbidden unless the path is relative and stays inside: no scheme, no leading slash, no
+// "..", no backslash, no NUL.
 void require_inside_upload(std::string_view path, std::string_view where);
 
 // By the first bytes; empty when it is none of png, jpeg, webp, ktx2, gif, bmp, dds.

@@ -37,8 +37,8 @@ std::vector<Edge> edges(const Mesh& mesh);
 
 struct Topology {
     size_t border_edges = 0;
-    size_t non_manifold_edges = 0;   // more than two triangles
-    size_t inconsistent_edges = 0;   // two triangles that run along it in the same direction
+    size_t non_manifold_edges = 0;  // more than two triangles
+    size_t inconsistent_edges = 0;  // two triangles that run along it in the same direction
 };
 
 Topology topology(const Mesh& mesh);

@@ -1,8 +1,8 @@
 // A unique mesh: flat arrays of vertices, wedges and triangles.
 //
-// A vertex is a position. A wedge is the set of corners of a vertex that share all attribute values (Hoppe 1999); glTF
-// "vertices" are wedges here. A glTF mesh with several primitives is one mesh with several material slots, so a border
-// between two materials cannot crack. Values; no thread-safety of their own.
+// A vertex is a position. A wedge is the set of corners of a vertex that share all attribute values (Hoppe
+// 1999); glTF "vertices" are wedges here. A glTF mesh with several primitives is one mesh with several
+// material slots, so a border between two materials cannot crack. Values; no thread-safety of their own.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,8 @@ enum class ComponentType : uint16_t {
     float32 = 5126,
 };
 
-// How the source stored a value. In memory everything is decoded to float; a writer that can stores it the same way.
+// How the source stored a value. In memory everything is decoded to float; a writer that can stores it the
+// same way.
 struct Storage {
     ComponentType type = ComponentType::float32;
     bool normalized = false;
@@ -36,10 +37,11 @@ struct Storage {
 
 // One stream of values, one per wedge.
 struct Attribute {
-    std::string name;         // glTF semantic: NORMAL, TANGENT, TEXCOORD_n, COLOR_n, JOINTS_n, WEIGHTS_n, _ANYTHING
+    std::string name;  // glTF semantic: NORMAL, TANGENT, TEXCOORD_n, COLOR_n, JOINTS_n, WEIGHTS_n, _ANYTHING
     uint32_t components = 0;  // numbers per wedge, 1..16
     Storage storage = {};
-    std::vector<float> values = {};  // components * wedge count; zeros where the wedge's slot lacks the attribute
+    std::vector<float> values =
+        {};  // components * wedge count; zeros where the wedge's slot lacks the attribute
 };
 
 // Deltas of one morph target, one per wedge; names are POSITION, NORMAL, TANGENT, TEXCOORD_n, COLOR_n.
@@ -47,7 +49,8 @@ struct MorphTarget {
     std::vector<Attribute> deltas;
 };
 
-// The triangles that are drawn with one material: a primitive of a glTF mesh, a usemtl group of an OBJ object.
+// The triangles that are drawn with one material: a primitive of a glTF mesh, a usemtl group of an OBJ
+// object.
 struct MaterialSlot {
     std::optional<uint32_t> material = {};          // index into Scene::materials; none: the format's default
     std::vector<bool> has_attribute = {};           // per attribute of the mesh; empty: has all
@@ -56,13 +59,13 @@ struct MaterialSlot {
 
 struct Mesh {
     std::string name;
-    std::vector<Vec3f> positions;                // one per vertex, model units
-    Storage position_storage = {};               // floats unless the source was quantized
-    std::vector<uint32_t> wedge_vertex;          // one per wedge: the vertex it belongs to
-    std::vector<Attribute> attributes;           // each holds values for every wedge
-    std::vector<MorphTarget> morph_targets;      // each holds deltas for every wedge
-    std::vector<uint32_t> triangles;             // 3 wedge indices per triangle, counter-clockwise
-    std::vector<uint32_t> triangle_slot;         // one per triangle: index into slots
+    std::vector<Vec3f> positions;            // one per vertex, model units
+    Storage position_storage = {};           // floats unless the source was quantized
+    std::vector<uint32_t> wedge_vertex;      // one per wedge: the vertex it belongs to
+    std::vector<Attribute> attributes;       // each holds values for every wedge
+    std::vector<MorphTarget> morph_targets;  // each holds deltas for every wedge
+    std::vector<uint32_t> triangles;         // 3 wedge indices per triangle, counter-clockwise
+    std::vector<uint32_t> triangle_slot;     // one per triangle: index into slots
     std::vector<MaterialSlot> slots;
 
     size_t vertex_count() const { return positions.size(); }
@@ -81,7 +84,8 @@ struct Mesh {
     const Attribute* find_attribute(std::string_view attribute_name) const;
 };
 
-// True when every index is in range and every array has the length that the others imply. For asserts and tests.
+// True when every index is in range and every array has the length that the others imply. For asserts and
+// tests.
 bool is_consistent(const Mesh& mesh);
 
 }  // namespace coppice

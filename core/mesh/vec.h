@@ -18,17 +18,25 @@ struct Vec3 {
 using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
 
-inline Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
+inline Vec3d to_double(Vec3f v) {
+    return {v.x, v.y, v.z};
+}
 inline Vec3f to_float(Vec3d v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-inline double dot(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double dot(Vec3d a, Vec3d b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Vec3d cross(Vec3d a, Vec3d b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double squared_length(Vec3d v) { return dot(v, v); }
-inline double length(Vec3d v) { return std::sqrt(dot(v, v)); }
+inline double squared_length(Vec3d v) {
+    return dot(v, v);
+}
+inline double length(Vec3d v) {
+    return std::sqrt(dot(v, v));
+}
 // The zero vector stays zero.
 inline Vec3d normalized(Vec3d v) {
     const double l = length(v);

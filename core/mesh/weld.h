@@ -5,9 +5,10 @@
 
 namespace coppice {
 
-// Merges vertices with equal positions (-0 equals +0) and then wedges of the same vertex whose attributes, morph
-// deltas and slots' attribute sets are equal. Readers call it once, with a vertex per wedge. Order of first use is
-// kept, so the result does not depend on anything but the input. Unused vertices and wedges stay. O(wedges).
+// Merges vertices with equal positions (-0 equals +0) and then wedges of the same vertex whose attributes,
+// morph deltas and slots' attribute sets are equal. Readers call it once, with a vertex per wedge. Order of
+// first use is kept, so the result does not depend on anything but the input. Unused vertices and wedges
+// stay. O(wedges).
 void weld(Mesh& mesh);
 
 // Drops wedges that no triangle uses and vertices that no wedge uses; order is kept.

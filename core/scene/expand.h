@@ -5,8 +5,8 @@
 
 namespace coppice {
 
-// One copy of its mesh for each instance, nodes kept: the first instance keeps the mesh's index, further copies are
-// appended; batches become child nodes. For instancing=expand in glTF.
+// One copy of its mesh for each instance, nodes kept: the first instance keeps the mesh's index, further
+// copies are appended; batches become child nodes. For instancing=expand in glTF.
 Scene expand_meshes(const Scene& scene);
 
 // One mesh per instance with its world transform applied, one root node each, at the identity. For plain OBJ.

@@ -1,5 +1,5 @@
-// A scene: unique meshes, materials, images, and nodes that place meshes. Values; readers make one, stages change it,
-// writers take it.
+// A scene: unique meshes, materials, images, and nodes that place meshes. Values; readers make one, stages
+// change it, writers take it.
 #pragma once
 
 #include <array>
@@ -34,7 +34,8 @@ struct TextureUse {
     uint32_t texture_coordinates = 0;    // TEXCOORD_n
 };
 
-// What the formats have in common. A source's own description of a material is passed through by Scene::source.
+// What the formats have in common. A source's own description of a material is passed through by
+// Scene::source.
 struct Material {
     std::string name;
     std::array<float, 4> base_color = {1, 1, 1, 1};  // linear RGBA
@@ -53,14 +54,15 @@ struct Node {
     std::optional<uint32_t> parent = {};
     std::vector<uint32_t> children = {};
     Transform local = {};
-    std::optional<uint32_t> mesh = {};   // index into Scene::meshes
-    std::vector<Transform> batch = {};   // EXT_mesh_gpu_instancing: one instance each; empty: one at the identity
+    std::optional<uint32_t> mesh = {};  // index into Scene::meshes
+    std::vector<Transform> batch =
+        {};  // EXT_mesh_gpu_instancing: one instance each; empty: one at the identity
     bool skinned = false;
-    bool animated = false;               // itself; see also its parents
+    bool animated = false;  // itself; see also its parents
 };
 
-// What a reader keeps so that the writer of the same format can pass through what the scene does not model (glTF's
-// JSON and untouched buffers, OBJ's MTL text). Immutable and shared.
+// What a reader keeps so that the writer of the same format can pass through what the scene does not model
+// (glTF's JSON and untouched buffers, OBJ's MTL text). Immutable and shared.
 struct SourceDocument {
     SourceDocument() = default;
     virtual ~SourceDocument() = default;

@@ -29,14 +29,15 @@ Transform from_trs(Vec3d translation, std::array<double, 4> rotation, Vec3d scal
 Transform from_column_major(std::span<const double, 16> matrix);
 std::array<double, 16> to_column_major(const Transform& transform);
 
-double determinant(const Transform& transform);  // of the linear part; < 0 mirrors
+double determinant(const Transform& transform);    // of the linear part; < 0 mirrors
 double largest_scale(const Transform& transform);  // largest singular value of the linear part
 // Normals transform by the inverse transpose of the linear part; unit length, or zero where that is singular.
 Vec3d transform_normal(const Transform& transform, Vec3d normal);
 Bounds transform_bounds(const Transform& transform, const Bounds& box);  // box of the eight corners
 
-// Moves a mesh: positions and morph deltas by the map, normals by the inverse transpose, tangents by the linear part;
-// the winding is flipped for negative determinants (and the tangent's handedness with it). Storage becomes float32.
+// Moves a mesh: positions and morph deltas by the map, normals by the inverse transpose, tangents by the
+// linear part; the winding is flipped for negative determinants (and the tangent's handedness with it).
+// Storage becomes float32.
 void transform_mesh(const Transform& transform, Mesh& mesh);
 
 }  // namespace coppice

@@ -15,10 +15,20 @@
 namespace coppice {
 
 // Why a run ended. Names as in the report.
-enum class StopReason { target, error_limit, threshold, topology, bounds, locked, already_smaller, cancelled };
+enum class StopReason {
+    target,
+    error_limit,
+    threshold,
+    topology,
+    bounds,
+    locked,
+    already_smaller,
+    cancelled
+};
 std::string_view name(StopReason reason);
 
-// When to stop; whichever keeps more triangles. At least one is set, unless the algorithm has a threshold of its own.
+// When to stop; whichever keeps more triangles. At least one is set, unless the algorithm has a threshold of
+// its own.
 struct Target {
     std::optional<uint64_t> triangles = {};        // stop at or below
     std::optional<uint64_t> vertices = {};         // stop at or below (vertices in use)
@@ -26,8 +36,9 @@ struct Target {
 };
 
 struct Simplified {
-    Mesh mesh;                     // consistent; unused vertices and wedges dropped
-    double error_model_units = 0;  // largest deviation that the algorithm estimates; not a bound unless certified
+    Mesh mesh;  // consistent; unused vertices and wedges dropped
+    double error_model_units =
+        0;  // largest deviation that the algorithm estimates; not a bound unless certified
     bool certified = false;
     StopReason stop_reason = StopReason::target;
 };
@@ -39,8 +50,9 @@ struct Algorithm {
     std::span<const Parameter> parameters;
     bool instance_aware = false;  // simplifies each unique mesh once, whatever its number of instances
 
-    // instances: world transforms of the mesh's instances (may be empty), for weights. Deterministic. Reports progress
-    // 0..1 and honours watch.stop at least every 50 ms by throwing. Never throws on a consistent mesh otherwise.
+    // instances: world transforms of the mesh's instances (may be empty), for weights. Deterministic. Reports
+    // progress 0..1 and honours watch.stop at least every 50 ms by throwing. Never throws on a consistent
+    // mesh otherwise.
     Simplified (*simplify)(const Mesh& mesh, std::span<const Transform> instances, const Target& target,
                            const ParameterValues& parameters, const Watch& watch) = nullptr;
 };

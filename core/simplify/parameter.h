@@ -1,4 +1,5 @@
-// Parameters of algorithms, as data: one description serves parsing, help, /v1/algorithms and the OpenAPI schema.
+// Parameters of algorithms, as data: one description serves parsing, help, /v1/algorithms and the OpenAPI
+// schema.
 #pragma once
 
 #include <map>
@@ -19,7 +20,7 @@ struct Parameter {
     std::string_view id;
     std::string_view title;  // what it means, one sentence
     Kind kind = Kind::number;
-    std::string_view unit = {};                       // "mesh units", "mean edges", "degrees"; empty: none
+    std::string_view unit = {};                        // "mesh units", "mean edges", "degrees"; empty: none
     std::optional<ParameterValue> default_value = {};  // none: unset unless given
     std::optional<double> minimum = {};
     std::optional<double> maximum = {};
@@ -29,18 +30,19 @@ struct Parameter {
 
 // Parsed values, by id. Only values that were given or have a default.
 class ParameterValues {
-   public:
-    // Checks ids, kinds and ranges of what was given and fills in defaults. Throws option_unknown and option_invalid;
-    // the message names the parameter, the value and what it takes. Text values are parsed ("0.5", "true").
+  public:
+    // Checks ids, kinds and ranges of what was given and fills in defaults. Throws option_unknown and
+    // option_invalid; the message names the parameter, the value and what it takes. Text values are parsed
+    // ("0.5", "true").
     static ParameterValues parse(std::span<const Parameter> parameters,
                                  const std::map<std::string, ParameterValue>& given);
 
     std::optional<double> number(std::string_view id) const;
-    bool boolean(std::string_view id) const;           // false when unset
+    bool boolean(std::string_view id) const;             // false when unset
     std::string_view choice(std::string_view id) const;  // empty when unset
     const std::map<std::string, ParameterValue, std::less<>>& all() const { return values_; }
 
-   private:
+  private:
     std::map<std::string, ParameterValue, std::less<>> values_;
 };
 

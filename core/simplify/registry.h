@@ -8,7 +8,7 @@
 
 namespace coppice {
 
-std::span<const Algorithm> algorithms();            // in the order they are listed to users
+std::span<const Algorithm> algorithms();  // in the order they are listed to users
 const Algorithm& default_algorithm();
 const Algorithm& find_algorithm(std::string_view id);  // throws option_invalid that lists the ids
 

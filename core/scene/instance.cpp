@@ -1,0 +1,75 @@
+#include "core/scene/instance.h"
+
+#include <cstddef>
+
+namespace coppice {
+
+namespace {
+
+// Calls visit(node) for every node under the roots, parents first, in depth-first order. No recursion: a
+// hostile file may be deep.
+template <typename Visit>
+void walk(const Scene& scene, const std::vector<uint32_t>& roots, Visit visit) {
+    std::vector<uint32_t> stack(roots.rbegin(), roots.rend());
+    while (!stack.empty()) {
+        const uint32_t node = stack.back();
+        stack.pop_back();
+        visit(node);
+        const auto& children = scene.nodes[node].children;
+        stack.insert(stack.end(), children.rbegin(), children.rend());
+    }
+}
+
+std::vector<uint32_t> all_roots(const Scene& scene) {
+    std::vector<uint32_t> roots;
+    for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
+        if (!scene.nodes[n].parent) roots.push_back(n);
+    }
+    return roots;
+}
+
+}  // namespace
+
+std::vector<Transform> world_transforms(const Scene& scene) {
+    std::vector<Transform> world(scene.nodes.size());
+    walk(scene, all_roots(scene), [&](uint32_t n) {
+        const Node& node = scene.nodes[n];
+        world[n] = node.parent ? world[*node.parent] * node.local : node.local;
+    });
+    return world;
+}
+
+std::vector<Instance> instances(const Scene& scene) {
+    const std::vector<Transform> world = world_transforms(scene);
+    std::vector<Instance> result;
+    walk(scene, scene.roots, [&](uint32_t n) {
+        const Node& node = scene.nodes[n];
+        if (!node.mesh) return;
+        if (node.batch.empty()) result.push_back({*node.mesh, n, 0, world[n]});
+        for (uint32_t i = 0; i < node.batch.size(); ++i) {
+            result.push_back({*node.mesh, n, i, world[n] * node.batch[i]});
+        }
+    });
+    return result;
+}
+
+uint64_t instance_count(const Scene& scene) {
+    uint64_t count = 0;
+    walk(scene, scene.roots, [&](uint32_t n) {
+        const Node& node = scene.nodes[n];
+        if (node.mesh) count += node.batch.empty() ? 1 : node.batch.size();
+    });
+    return count;
+}
+
+Bounds scene_bounds(const Scene& scene) {
+    Bounds box;
+    for (const Instance& instance : instances(scene)) {
+        for (const Vec3f& position : scene.meshes[instance.mesh].positions) {
+            box.extend(instance.world.point(to_double(position)));
+        }
+    }
+    return box;
+}
+
+}  // namespace coppice
