@@ -1,0 +1,101 @@
+#include "core/mesh/weld.h"
+
+#include <gmock/gmock.h>
+
+namespace coppice {
+namespace {
+
+using testing::ElementsAre;
+
+// Two triangles of a unit square as a file without indices stores them: six vertices, each with its own
+// wedge.
+Mesh unindexed_square() {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.wedge_vertex = {0, 1, 2, 3, 4, 5};
+    mesh.triangles = {0, 1, 2, 3, 4, 5};
+    mesh.triangle_slot = {0, 0};
+    mesh.slots.resize(1);
+    return mesh;
+}
+
+TEST(Weld, merges_equal_positions_and_their_equal_wedges) {
+    Mesh mesh = unindexed_square();
+    weld(mesh);
+    EXPECT_TRUE(is_consistent(mesh));
+    EXPECT_EQ(mesh.vertex_count(), 4);
+    EXPECT_THAT(mesh.triangles, ElementsAre(0, 1, 2, 0, 2, 3));
+}
+
+TEST(Weld, takes_minus_zero_for_zero) {
+    Mesh mesh = unindexed_square();
+    mesh.positions[3] = {-0.0F, 0, -0.0F};
+    weld(mesh);
+    EXPECT_EQ(mesh.vertex_count(), 4);
+}
+
+TEST(Weld, keeps_wedges_apart_whose_texture_coordinates_differ) {
+    Mesh mesh = unindexed_square();
+    mesh.attributes = {
+        {.name = "TEXCOORD_0", .components = 2, .values = {0, 0, 1, 0, 1, 1, .5F, 0, 1, 1, 0, 1}}};
+    weld(mesh);
+    EXPECT_EQ(mesh.vertex_count(), 4);
+    EXPECT_EQ(mesh.wedge_count(), 5) << "the corner at the origin has two texture coordinates";
+    EXPECT_THAT(mesh.triangles, ElementsAre(0, 1, 2, 3, 2, 4));
+}
+
+TEST(Weld, keeps_wedges_apart_whose_morph_deltas_differ) {
+    Mesh mesh = unindexed_square();
+    Attribute delta = {.name = "POSITION", .components = 3, .values = std::vector<float>(18, 0)};
+    delta.values[9] = 1;  // the second use of the origin moves, the first does not
+    mesh.morph_targets = {{.deltas = {delta}}};
+    weld(mesh);
+    EXPECT_EQ(mesh.wedge_count(), 5);
+}
+
+TEST(Weld, keeps_wedges_apart_whose_slots_have_other_attributes) {
+    Mesh mesh = unindexed_square();
+    mesh.attributes = {{.name = "TEXCOORD_0", .components = 2, .values = std::vector<float>(12, 0)}};
+    mesh.slots = {{.has_attribute = {true}}, {.has_attribute = {false}}};
+    mesh.triangle_slot = {0, 1};
+    weld(mesh);
+    EXPECT_EQ(mesh.vertex_count(), 4);
+    EXPECT_EQ(mesh.wedge_count(), 6)
+        << "zeros that are values and zeros that stand for nothing are not the same";
+}
+
+TEST(DropUnused, leaves_only_what_triangles_use) {
+    Mesh mesh = unindexed_square();
+    mesh.attributes = {{.name = "COLOR_0", .components = 1, .values = {0, 1, 2, 3, 4, 5}}};
+    mesh.triangles = {3, 4, 5};
+    mesh.triangle_slot = {0};
+    drop_unused(mesh);
+    EXPECT_TRUE(is_consistent(mesh));
+    EXPECT_EQ(mesh.vertex_count(), 3);
+    EXPECT_THAT(mesh.triangles, ElementsAre(0, 1, 2));
+    EXPECT_THAT(mesh.attributes[0].values, ElementsAre(3, 4, 5));
+}
+
+TEST(DropDegenerateAndDuplicate, removes_both_and_counts_them) {
+    Mesh mesh = unindexed_square();
+    weld(mesh);
+    mesh.positions.push_back({0.5F, 0, 0});  // on the edge between vertices 0 and 1
+    mesh.wedge_vertex.push_back(4);
+    mesh.triangles = {0, 1, 2, 0, 0, 1, /* a rotation of the first: */ 1, 2, 0, /* zero area: */ 0,
+                      4, 1, 0, 2, 3};
+    mesh.triangle_slot = {0, 0, 0, 0, 0};
+    const CleanedTriangles cleaned = drop_degenerate_and_duplicate(mesh);
+    EXPECT_EQ(cleaned.degenerate, 2);
+    EXPECT_EQ(cleaned.duplicate, 1);
+    EXPECT_THAT(mesh.triangles, ElementsAre(0, 1, 2, 0, 2, 3));
+}
+
+TEST(DropDegenerateAndDuplicate, keeps_the_back_side_of_a_double_sided_triangle) {
+    Mesh mesh = unindexed_square();
+    weld(mesh);
+    mesh.triangles = {0, 1, 2, 2, 1, 0};
+    EXPECT_EQ(drop_degenerate_and_duplicate(mesh).duplicate, 0);
+}
+
+}  // namespace
+}  // namespace coppice

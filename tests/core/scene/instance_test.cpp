@@ -1,0 +1,99 @@
+#include "core/scene/instance.h"
+
+#include <gtest/gtest.h>
+
+#include "core/scene/expand.h"
+
+namespace coppice {
+namespace {
+
+Transform move_x(double x) {
+    return from_trs({x, 0, 0}, {0, 0, 0, 1}, {1, 1, 1});
+}
+
+uint32_t add_node(Scene& scene, std::optional<uint32_t> parent, const Transform& local,
+                  std::optional<uint32_t> mesh = {}) {
+    const auto index = static_cast<uint32_t>(scene.nodes.size());
+    Node node;
+    node.parent = parent;
+    node.local = local;
+    node.mesh = mesh;
+    scene.nodes.push_back(node);
+    (parent ? scene.nodes[*parent].children : scene.roots).push_back(index);
+    return index;
+}
+
+// A unit triangle under a moved parent, once by a node and twice by a batch.
+Scene three_triangles() {
+    Scene scene;
+    Mesh mesh;
+    mesh.name = "triangle";
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.wedge_vertex = {0, 1, 2};
+    mesh.triangles = {0, 1, 2};
+    mesh.triangle_slot = {0};
+    mesh.slots.resize(1);
+    scene.meshes = {mesh};
+    const uint32_t parent = add_node(scene, {}, move_x(10));
+    add_node(scene, parent, move_x(1), 0);
+    scene.nodes[add_node(scene, parent, move_x(2), 0)].batch = {move_x(100), move_x(200)};
+    return scene;
+}
+
+TEST(Instances, multiply_transforms_down_the_tree_and_through_batches) {
+    const std::vector<Instance> all = instances(three_triangles());
+    ASSERT_EQ(all.size(), 3);
+    EXPECT_EQ(all[0].world, move_x(11));
+    EXPECT_EQ(all[1].world, move_x(112));
+    EXPECT_EQ(all[2].world, move_x(212));
+    EXPECT_EQ(all[2].in_batch, 1);
+    EXPECT_EQ(instance_count(three_triangles()), 3);
+}
+
+TEST(Instances, of_nodes_outside_the_default_scene_do_not_count) {
+    Scene scene = three_triangles();
+    scene.roots.clear();
+    EXPECT_EQ(instance_count(scene), 0);
+}
+
+TEST(Instances, of_a_very_deep_tree_cost_no_stack) {
+    Scene scene = three_triangles();
+    uint32_t parent = 0;
+    for (int depth = 0; depth < 200'000; ++depth) parent = add_node(scene, parent, move_x(1));
+    add_node(scene, parent, {}, 0);
+    EXPECT_EQ(instances(scene).back().world, move_x(200'010));
+}
+
+TEST(SceneBounds, are_those_of_all_instances) {
+    const Bounds box = scene_bounds(three_triangles());
+    EXPECT_EQ(box.min, (Vec3d{11, 0, 0}));
+    EXPECT_EQ(box.max, (Vec3d{213, 1, 0}));
+}
+
+TEST(ExpandMeshes, gives_each_instance_a_mesh_of_its_own_where_it_stood) {
+    const Scene expanded = expand_meshes(three_triangles());
+    const std::vector<Instance> all = instances(expanded);
+    ASSERT_EQ(all.size(), 3);
+    EXPECT_EQ(expanded.meshes.size(), 3);
+    EXPECT_NE(all[0].mesh, all[1].mesh);
+    EXPECT_NE(all[1].mesh, all[2].mesh);
+    EXPECT_EQ(all[1].world, move_x(112));
+}
+
+TEST(BakeInstances, leaves_no_transform_and_the_same_bounds) {
+    const Scene baked = bake_instances(three_triangles());
+    EXPECT_EQ(baked.meshes.size(), 3);
+    for (const Instance& instance : instances(baked)) EXPECT_EQ(instance.world, Transform{});
+    EXPECT_EQ(scene_bounds(baked).max, scene_bounds(three_triangles()).max);
+}
+
+TEST(BakeInstances, turns_the_winding_of_mirrored_ones) {
+    Scene scene = three_triangles();
+    scene.nodes[1].local = from_trs({}, {0, 0, 0, 1}, {-1, 1, 1});
+    const Mesh mesh = bake_instances(scene).meshes[0];
+    const Vec3d a = mesh.corner_position(0, 0);
+    EXPECT_GT(cross(mesh.corner_position(0, 1) - a, mesh.corner_position(0, 2) - a).z, 0);
+}
+
+}  // namespace
+}  // namespace coppice
