@@ -1,6 +1,7 @@
 // What is in an asset, without changing it.
 #pragma once
 
+#include "core/format/asset.h"
 #include "core/optimize/report.h"
 
 namespace coppice {

@@ -1,0 +1,13 @@
+// Numbers out of text, the same on every machine.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace coppice {
+
+// The whole text as one finite decimal number ("0.5", "5e-1", "-3"), whatever the locale. Nothing for
+// anything else: white space, a comma, a leading +, hexadecimal, inf, nan, a number too large for a double.
+std::optional<double> parse_number(std::string_view text);
+
+}  // namespace coppice

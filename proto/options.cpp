@@ -1,0 +1,247 @@
+#include "proto/options.h"
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <variant>
+
+#include "core/base/error.h"
+#include "core/simplify/registry.h"
+#include "proto/json.h"
+#include "proto/number.h"
+#include "proto/unknown_option.h"
+
+namespace coppice {
+namespace {
+
+// One option as it was given. Text of a query or a flag stands for a number or a boolean; a JSON string does
+// not.
+struct Given {
+    std::string name;
+    std::variant<bool, double, std::string> value;
+    bool is_json = false;
+    std::string shown;  // the value as messages show it
+};
+
+[[noreturn]] void refuse(const Given& given, std::string_view takes) {
+    fail(ErrorCode::option_invalid, given.name,
+         fmt::format("{} is {}; it takes {}", given.name, given.shown, takes));
+}
+
+double number(const Given& given, std::string_view takes) {
+    if (const auto* value = std::get_if<double>(&given.value)) return *value;
+    const auto* text = std::get_if<std::string>(&given.value);
+    if (text == nullptr || given.is_json) refuse(given, takes);
+    const auto value = parse_number(*text);
+    if (!value) refuse(given, takes);
+    return *value;
+}
+
+uint64_t whole_number(const Given& given, std::string_view takes) {
+    // Above 2^53 a double no longer tells neighbours apart; no scene comes near.
+    constexpr double largest = 9007199254740992.0;
+    const double value = number(given, takes);
+    if (value < 0 || value > largest || std::floor(value) != value) refuse(given, takes);
+    return static_cast<uint64_t>(value);
+}
+
+const std::string& text(const Given& given, std::string_view takes) {
+    const auto* value = std::get_if<std::string>(&given.value);
+    if (value == nullptr || value->empty()) refuse(given, takes);
+    return *value;
+}
+
+constexpr auto instancings = std::to_array<std::pair<Instancing, std::string_view>>({
+    {Instancing::automatic, "auto"},
+    {Instancing::nodes, "nodes"},
+    {Instancing::gpu, "gpu"},
+    {Instancing::expand, "expand"},
+});
+
+std::string_view name(Instancing instancing) {
+    for (const auto& [candidate, text] : instancings) {
+        if (candidate == instancing) return text;
+    }
+    return {};
+}
+
+Instancing to_instancing(const Given& given, std::string_view takes) {
+    const std::string& wanted = text(given, takes);
+    for (const auto& [instancing, candidate] : instancings) {
+        if (candidate == wanted) return instancing;
+    }
+    refuse(given, takes);
+}
+
+Format to_format(const Given& given, std::string_view takes) {
+    const auto format = format_from_id(text(given, takes));
+    if (!format || !is_writable(*format)) refuse(given, takes);
+    return *format;
+}
+
+// Finding copies does not exist yet; the option that turns it off does, so that requests stay right when it
+// comes.
+void check_discover(const Given& given, std::string_view takes) {
+    if (text(given, takes) != "none") refuse(given, takes);
+}
+
+struct Rule {
+    std::string_view name;
+    std::string_view takes;
+    void (*apply)(const Given& given, std::string_view takes, OptimizeOptions& options);
+};
+
+// Ranges are checked by validate(), which guards every caller of the library.
+constexpr auto rules = std::to_array<Rule>({
+    {"algorithm", "the id of an algorithm, as GET /v1/algorithms lists them",
+     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
+         options.algorithm = text(given, takes);
+     }},
+    {"ratio", "a number over 0 and at most 1",
+     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
+         options.ratio = number(given, takes);
+     }},
+    {"triangles", "a whole number of at least 1",
+     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
+         options.triangles = whole_number(given, takes);
+     }},
+    {"error", "a number over 0, as a fraction of the scene's diagonal",
+     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
+         options.error = number(given, takes);
+     }},
+    {"format", "glb, gltf, obj or iobj",
+     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
+         options.format = to_format(given, takes);
+     }},
+    {"instancing", "auto, nodes, gpu or expand",
+     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
+         options.instancing = to_instancing(given, takes);
+     }},
+    {"discover", "none, because this version does not find copies yet",
+     [](const Given& given, std::string_view takes, OptimizeOptions&) { check_discover(given, takes); }},
+    {"entry", "the path of a file in the archive",
+     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
+         options.entry = text(given, takes);
+     }},
+});
+
+constexpr std::string_view parameter_prefix = "parameters.";
+
+std::vector<std::string_view> option_names() {
+    std::vector<std::string_view> names;
+    for (const Rule& rule : rules) names.push_back(rule.name);
+    names.push_back("parameters");
+    return names;
+}
+
+void apply(const Given& given, OptimizeOptions& options) {
+    if (given.name.starts_with(parameter_prefix)) {
+        const std::string id = given.name.substr(parameter_prefix.size());
+        options.parameters[id] = given.value;
+        return;
+    }
+    for (const Rule& rule : rules) {
+        if (rule.name == given.name) return rule.apply(given, rule.takes, options);
+    }
+    fail_unknown_option(given.name, option_names());
+}
+
+// Typed, so that options which mean the same print the same wherever they came from.
+void resolve_parameters(OptimizeOptions& options) {
+    const Algorithm& algorithm =
+        options.algorithm.empty() ? default_algorithm() : find_algorithm(options.algorithm);
+    const ParameterValues values = ParameterValues::parse(algorithm.parameters, options.parameters);
+    for (auto& [id, value] : options.parameters) value = values.all().find(id)->second;
+}
+
+OptimizeOptions finish(OptimizeOptions options) {
+    validate(options);
+    resolve_parameters(options);
+    return options;
+}
+
+// Long values are cut, so that a message stays one.
+std::string shorten(std::string value) {
+    constexpr size_t most = 80;
+    if (value.size() > most) value = value.substr(0, most) + "...";
+    return value;
+}
+
+Given from_text(const std::string& name, const std::string& value) {
+    return {
+        .name = name, .value = value, .is_json = false, .shown = value.empty() ? "empty" : shorten(value)};
+}
+
+Given from_json(const std::string& name, const nlohmann::json& value) {
+    Given given = {.name = name, .value = {}, .is_json = true, .shown = shorten(print_json(value))};
+    if (value.is_boolean()) {
+        given.value = value.get<bool>();
+    } else if (value.is_number()) {
+        given.value = value.get<double>();
+    } else if (value.is_string()) {
+        given.value = value.get<std::string>();
+    } else {
+        refuse(given, "one value: a number, a text, true or false");
+    }
+    return given;
+}
+
+void apply_parameters(const nlohmann::json& parameters, OptimizeOptions& options) {
+    require(parameters.is_object(), ErrorCode::option_invalid, "parameters",
+            "parameters is {}; it takes an object with the algorithm's own parameters",
+            shorten(print_json(parameters)));
+    for (const auto& [id, value] : parameters.items())
+        apply(from_json(fmt::format("parameters.{}", id), value), options);
+}
+
+}  // namespace
+
+OptimizeOptions parse_options(const std::vector<std::pair<std::string, std::string>>& pairs) {
+    OptimizeOptions options;
+    std::map<std::string_view, std::string_view> seen;
+    for (const auto& [name, value] : pairs) {
+        const auto [earlier, is_new] = seen.emplace(name, value);
+        require(is_new, ErrorCode::option_conflict, name, "{} is given twice, as {} and {}; give it once",
+                name, shorten(std::string(earlier->second)), shorten(value));
+        require(name != "parameters", ErrorCode::option_invalid, name,
+                "parameters takes an object in JSON only; here each parameter is an option of its own, "
+                "parameters.NAME");
+        apply(from_text(name, value), options);
+    }
+    return finish(std::move(options));
+}
+
+OptimizeOptions parse_options_json(std::string_view json) {
+    const nlohmann::json object = parse_json(json, {}, "options");
+    require(object.is_object(), ErrorCode::option_invalid, "options",
+            "options is {}; it takes an object, such as {{\"ratio\":0.5}}", shorten(print_json(object)));
+    OptimizeOptions options;
+    for (const auto& [name, value] : object.items()) {
+        if (name == "parameters") {
+            apply_parameters(value, options);
+            continue;
+        }
+        require(!name.starts_with(parameter_prefix), ErrorCode::option_invalid, name,
+                "{} is how a query names a parameter; in JSON, parameters is an object", name);
+        apply(from_json(name, value), options);
+    }
+    return finish(std::move(options));
+}
+
+std::string print_options(const OptimizeOptions& options) {
+    nlohmann::json json = nlohmann::json::object();
+    if (!options.algorithm.empty()) json["algorithm"] = options.algorithm;
+    if (options.ratio) json["ratio"] = *options.ratio;
+    if (options.triangles) json["triangles"] = *options.triangles;
+    if (options.error) json["error"] = *options.error;
+    if (options.format) json["format"] = id(*options.format);
+    if (options.instancing != Instancing::automatic) json["instancing"] = name(options.instancing);
+    if (!options.entry.empty()) json["entry"] = options.entry;
+    for (const auto& [id, value] : options.parameters) {
+        std::visit([&, &id = id](const auto& held) { json["parameters"][id] = held; }, value);
+    }
+    return print_json(json);
+}
+
+}  // namespace coppice

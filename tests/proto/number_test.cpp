@@ -1,0 +1,19 @@
+#include "proto/number.h"
+
+#include <gtest/gtest.h>
+
+namespace coppice {
+namespace {
+
+TEST(Number, is_a_decimal_number_and_nothing_else) {
+    EXPECT_EQ(parse_number("0.5"), 0.5);
+    EXPECT_EQ(parse_number("5e-1"), 0.5);
+    EXPECT_EQ(parse_number("-3"), -3);
+    for (const char* text : {"", "abc", "0.5x", " 0.5", "0.5 ", "0,5", "+0.5", "0x1p3", "inf", "-inf", "nan",
+                             "NaN", "infinity", "1e999", "1_000", "--1"}) {
+        EXPECT_FALSE(parse_number(text)) << text;
+    }
+}
+
+}  // namespace
+}  // namespace coppice
