@@ -10,7 +10,7 @@ namespace coppice {
 
 namespace {
 
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+constexpr uint32_t none = std::numeric_limits<uint32_t>::max();
 
 uint64_t mix(uint64_t hash, uint64_t value) {
     // The finalizer of SplitMix64, Steele, Lea and Flood 2014.
@@ -30,13 +30,13 @@ template <typename Hash, typename Equal>
 std::vector<uint32_t> group_equal(size_t count, Hash hash, Equal equal,
                                   std::vector<uint32_t>& first_of_group) {
     const size_t size = std::bit_ceil(count + count / 2 + 1);
-    std::vector<uint32_t> table(size, kNone);
+    std::vector<uint32_t> table(size, none);
     std::vector<uint32_t> group(count);
     first_of_group.clear();
     for (size_t i = 0; i < count; ++i) {
         size_t at = hash(i) & (size - 1);
-        while (table[at] != kNone && !equal(first_of_group[table[at]], i)) at = (at + 1) & (size - 1);
-        if (table[at] == kNone) {
+        while (table[at] != none && !equal(first_of_group[table[at]], i)) at = (at + 1) & (size - 1);
+        if (table[at] == none) {
             table[at] = static_cast<uint32_t>(first_of_group.size());
             first_of_group.push_back(static_cast<uint32_t>(i));
         }
@@ -89,7 +89,7 @@ void weld_vertices(Mesh& mesh) {
 
 // For each wedge the lowest slot of its class: slots with equal attribute sets are one class, so that wedges
 // are only merged when whoever uses them agrees on which attributes exist. Wedges that no triangle uses are
-// class kNone.
+// class none.
 std::vector<uint32_t> slot_class_of_wedges(const Mesh& mesh) {
     std::vector<uint32_t> slot_class(mesh.slots.size());
     for (size_t s = 0; s < mesh.slots.size(); ++s) {
@@ -97,7 +97,7 @@ std::vector<uint32_t> slot_class_of_wedges(const Mesh& mesh) {
         while (mesh.slots[c].has_attribute != mesh.slots[s].has_attribute) ++c;
         slot_class[s] = static_cast<uint32_t>(c);
     }
-    std::vector<uint32_t> wedge_class(mesh.wedge_count(), kNone);
+    std::vector<uint32_t> wedge_class(mesh.wedge_count(), none);
     for (size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
         wedge_class[mesh.triangles[corner]] = slot_class[mesh.triangle_slot[corner / 3]];
     }
@@ -150,22 +150,22 @@ void weld(Mesh& mesh) {
 }
 
 void drop_unused(Mesh& mesh) {
-    std::vector<uint32_t> new_wedge(mesh.wedge_count(), kNone);
+    std::vector<uint32_t> new_wedge(mesh.wedge_count(), none);
     for (const uint32_t wedge : mesh.triangles) new_wedge[wedge] = 0;
     std::vector<uint32_t> kept_wedges;
     for (uint32_t w = 0; w < new_wedge.size(); ++w) {
-        if (new_wedge[w] == kNone) continue;
+        if (new_wedge[w] == none) continue;
         new_wedge[w] = static_cast<uint32_t>(kept_wedges.size());
         kept_wedges.push_back(w);
     }
     keep_wedges(mesh, kept_wedges);
     for (uint32_t& wedge : mesh.triangles) wedge = new_wedge[wedge];
 
-    std::vector<uint32_t> new_vertex(mesh.vertex_count(), kNone);
+    std::vector<uint32_t> new_vertex(mesh.vertex_count(), none);
     for (const uint32_t vertex : mesh.wedge_vertex) new_vertex[vertex] = 0;
     std::vector<Vec3f> kept_positions;
     for (size_t v = 0; v < new_vertex.size(); ++v) {
-        if (new_vertex[v] == kNone) continue;
+        if (new_vertex[v] == none) continue;
         new_vertex[v] = static_cast<uint32_t>(kept_positions.size());
         kept_positions.push_back(mesh.positions[v]);
     }

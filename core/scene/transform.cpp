@@ -90,18 +90,10 @@ Transform operator*(const Transform& a, const Transform& b) {
 Transform from_trs(Vec3d translation, std::array<double, 4> rotation, Vec3d scale) {
     Eigen::Quaterniond q(rotation[3], rotation[0], rotation[1], rotation[2]);
     q = q.norm() > 0 ? q.normalized() : Eigen::Quaterniond::Identity();
-    const Eigen::Matrix3d r = q.toRotationMatrix();
-    Transform t;
-    const std::array<double, 3> s = {scale.x, scale.y, scale.z};
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) {
-            t.m[static_cast<size_t>(4 * row + column)] = r(row, column) * s[static_cast<size_t>(column)];
-        }
-    }
-    t.m[3] = translation.x;
-    t.m[7] = translation.y;
-    t.m[11] = translation.z;
-    return t;
+    const Eigen::Matrix3d r = q.toRotationMatrix() * Eigen::Vector3d(scale.x, scale.y, scale.z).asDiagonal();
+    return {{r(0, 0), r(0, 1), r(0, 2), translation.x,  //
+             r(1, 0), r(1, 1), r(1, 2), translation.y,  //
+             r(2, 0), r(2, 1), r(2, 2), translation.z}};
 }
 
 Transform from_column_major(std::span<const double, 16> matrix) {
@@ -127,12 +119,9 @@ double determinant(const Transform& t) {
 }
 
 double largest_scale(const Transform& transform) {
+    const auto& m = transform.m;
     Eigen::Matrix3d linear;
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) {
-            linear(row, column) = transform.m[static_cast<size_t>(4 * row + column)];
-        }
-    }
+    linear << m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10];
     return Eigen::JacobiSVD<Eigen::Matrix3d>(linear).singularValues()(0);
 }
 

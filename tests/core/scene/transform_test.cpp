@@ -7,7 +7,7 @@
 namespace coppice {
 namespace {
 
-constexpr double kHalf = 0.70710678118654752;  // sin and cos of 45 degrees
+constexpr double half = 0.70710678118654752;  // sin and cos of 45 degrees
 
 Transform linear(std::array<double, 9> l) {
     return {{l[0], l[1], l[2], 0, l[3], l[4], l[5], 0, l[6], l[7], l[8], 0}};
@@ -49,7 +49,7 @@ Vec3d stored_normal(const Mesh& mesh) {
 }
 
 TEST(Transform, trs_scales_then_rotates_then_translates) {
-    const Transform t = from_trs({10, 0, 0}, {0, 0, kHalf, kHalf}, {2, 1, 1});  // 90 degrees about z
+    const Transform t = from_trs({10, 0, 0}, {0, 0, half, half}, {2, 1, 1});  // 90 degrees about z
     expect_near(t.point({1, 0, 0}), {10, 2, 0});
 }
 
@@ -104,8 +104,7 @@ TEST(TransformMesh, moves_morph_deltas_without_the_translation) {
 }
 
 TEST(TransformBounds, holds_every_corner) {
-    const Bounds box =
-        transform_bounds(from_trs({}, {0, 0, kHalf, kHalf}, {1, 1, 1}), {{0, 0, 0}, {1, 2, 3}});
+    const Bounds box = transform_bounds(from_trs({}, {0, 0, half, half}, {1, 1, 1}), {{0, 0, 0}, {1, 2, 3}});
     expect_near(box.min, {-2, 0, 0});
     expect_near(box.max, {0, 1, 3});
 }
