@@ -26,6 +26,7 @@ struct Parameter {
     std::optional<double> maximum = {};
     bool minimum_excluded = false;
     std::span<const std::string_view> choices = {};
+    bool ends_run = false;  // given, it is a target of its own: no default ratio then
 };
 
 // Parsed values, by id. Only values that were given or have a default.

@@ -11,7 +11,7 @@ import sys
 
 CORE_SIBLINGS = ["core/simplify", "core/compare", "core/format", "core/encode"]
 BELOW_SIBLINGS = ["core/base", "core/mesh", "core/scene"]
-CORE = BELOW_SIBLINGS + CORE_SIBLINGS + ["core/optimize"]
+CORE = BELOW_SIBLINGS + CORE_SIBLINGS + ["core/optimize", "core/sample"]
 
 # What each room may include besides itself. A file belongs to the longest room that its path starts with.
 ROOMS = {
@@ -20,6 +20,7 @@ ROOMS = {
     "core/scene": ["core/base", "core/mesh"],
     **{room: BELOW_SIBLINGS for room in CORE_SIBLINGS},
     "core/optimize": BELOW_SIBLINGS + CORE_SIBLINGS,
+    "core/sample": BELOW_SIBLINGS,
     "proto": CORE,
     "server/http": CORE + ["proto"],
     "server/store": CORE + ["proto"],
@@ -39,6 +40,7 @@ LIBRARIES = {
     r"draco/": ["core/format/gltf", "core/encode"],
     r"meshoptimizer\.h": ["core/format/gltf", "core/encode"],
     r"zip\.h": ["core/format"],
+    r"png\.h": ["core/sample"],
     r"(tbb|oneapi)/": ["core/base"],
     r"spdlog/": ["server", "cli"],
     r"CLI/": ["cli"],
