@@ -130,8 +130,9 @@ constexpr std::string_view parameter_prefix = "parameters.";
 
 std::vector<std::string_view> option_names() {
     std::vector<std::string_view> names;
+    names.reserve(rules.size() + 1);
     for (const Rule& rule : rules) names.push_back(rule.name);
-    names.push_back("parameters");
+    names.emplace_back("parameters");
     return names;
 }
 
@@ -173,7 +174,8 @@ Given from_text(const std::string& name, const std::string& value) {
         .name = name, .value = value, .is_json = false, .shown = value.empty() ? "empty" : shorten(value)};
 }
 
-Given from_json(const std::string& name, const nlohmann::json& value) {
+// Not from_json: nlohmann 3.11.3 (Debian 13) looks that name up for every type and stumbles over this one.
+Given given_in_json(const std::string& name, const nlohmann::json& value) {
     Given given = {.name = name, .value = {}, .is_json = true, .shown = shorten(print_json(value))};
     if (value.is_boolean()) {
         given.value = value.get<bool>();
@@ -192,7 +194,7 @@ void apply_parameters(const nlohmann::json& parameters, OptimizeOptions& options
             "parameters is {}; it takes an object with the algorithm's own parameters",
             shorten(print_json(parameters)));
     for (const auto& [id, value] : parameters.items())
-        apply(from_json(fmt::format("parameters.{}", id), value), options);
+        apply(given_in_json(fmt::format("parameters.{}", id), value), options);
 }
 
 }  // namespace
@@ -224,7 +226,7 @@ OptimizeOptions parse_options_json(std::string_view json) {
         }
         require(!name.starts_with(parameter_prefix), ErrorCode::option_invalid, name,
                 "{} is how a query names a parameter; in JSON, parameters is an object", name);
-        apply(from_json(name, value), options);
+        apply(given_in_json(name, value), options);
     }
     return finish(std::move(options));
 }
