@@ -149,16 +149,22 @@ void apply(const Given& given, OptimizeOptions& options) {
 }
 
 // Typed, so that options which mean the same print the same wherever they came from.
-void resolve_parameters(OptimizeOptions& options) {
+void resolve_parameters(bool is_json, OptimizeOptions& options) {
     const Algorithm& algorithm =
         options.algorithm.empty() ? default_algorithm() : find_algorithm(options.algorithm);
     const ParameterValues values = ParameterValues::parse(algorithm.parameters, options.parameters);
-    for (auto& [id, value] : options.parameters) value = values.all().find(id)->second;
+    for (auto& [id, value] : options.parameters) {
+        const ParameterValue& typed = values.all().find(id)->second;
+        require(!is_json || typed.index() == value.index(), ErrorCode::option_invalid, "parameters." + id,
+                "parameters.{0} is the text \"{1}\"; in JSON it is given without quotes", id,
+                std::holds_alternative<std::string>(value) ? std::get<std::string>(value) : "");
+        value = typed;
+    }
 }
 
-OptimizeOptions finish(OptimizeOptions options) {
+OptimizeOptions finish(bool is_json, OptimizeOptions options) {
     validate(options);
-    resolve_parameters(options);
+    resolve_parameters(is_json, options);
     return options;
 }
 
@@ -211,7 +217,7 @@ OptimizeOptions parse_options(const std::vector<std::pair<std::string, std::stri
                 "parameters.NAME");
         apply(from_text(name, value), options);
     }
-    return finish(std::move(options));
+    return finish(false, std::move(options));
 }
 
 OptimizeOptions parse_options_json(std::string_view json) {
@@ -228,7 +234,7 @@ OptimizeOptions parse_options_json(std::string_view json) {
                 "{} is how a query names a parameter; in JSON, parameters is an object", name);
         apply(given_in_json(name, value), options);
     }
-    return finish(std::move(options));
+    return finish(true, std::move(options));
 }
 
 std::string print_options(const OptimizeOptions& options) {
