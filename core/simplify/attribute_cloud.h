@@ -1,0 +1,65 @@
+// Point clouds of GAPS (Erikson and Manocha 1999, as ITS prints them): what attribute values a wedge stands
+// for.
+//
+// A cloud of weighted points a_i is X = (X0, X1, X2) = (sum w, sum w a, sum w |a|^2). The weighted sum of
+// squared distances of a value a from it is Pi(a) = X0 |a|^2 - 2 a.X1 + X2, and A(a) = sqrt(Pi(a) / X0).
+// Merging is adding. Each wedge starts as one point, its value, weighted by the area of the triangles that
+// use it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+#include "core/simplify/collapse_mesh.h"
+
+namespace coppice {
+
+// How long one unit of an attribute is in mesh units, so that errors can be added. Unset: 0.05 of the box's
+// diagonal for normals and colours, sqrt(area in space / area in the UV plane) for each set of UVs.
+struct AttributeScales {
+    std::optional<double> normal = {};
+    std::optional<double> uv = {};
+    std::optional<double> color = {};
+};
+
+class AttributeClouds {
+  public:
+    // Takes NORMAL, TEXCOORD_n and COLOR_n. A wedge whose slot lacks an attribute gets an empty cloud for it.
+    AttributeClouds(const CollapseMesh& mesh, const Mesh& source, const AttributeScales& scales);
+
+    uint32_t channels() const { return static_cast<uint32_t>(channels_.size()); }  // one per attribute
+
+    // X0 of a wedge's cloud, mesh units squared.
+    double weight(uint32_t wedge, uint32_t channel) const { return clouds_[cloud_at(wedge, channel)]; }
+
+    // Pi of the cloud of `from` at the value of `at`. One channel, or the sum over all.
+    double squared_error(uint32_t from, uint32_t at, uint32_t channel) const;
+    double squared_error(uint32_t from, uint32_t at) const;
+
+    // Adds the clouds of `from` to those of `to`.
+    void merge(uint32_t from, uint32_t to);
+
+  private:
+    struct Channel {
+        uint32_t components = 0;
+        uint32_t value_offset = 0;  // in a wedge's values
+        uint32_t cloud_offset = 0;  // in a wedge's clouds: X0, X1 (components), X2
+    };
+
+    size_t cloud_at(uint32_t wedge, uint32_t channel) const {
+        return size_t{wedge} * cloud_stride_ + channels_[channel].cloud_offset;
+    }
+    void add_channel(const Attribute& attribute);
+    void fill(const CollapseMesh& mesh, const Mesh& source, size_t attribute, const Channel& channel,
+              double scale, std::span<const double> wedge_areas);
+
+    std::vector<Channel> channels_;
+    size_t value_stride_ = 0, cloud_stride_ = 0;
+    std::vector<double> values_;  // scaled, value_stride_ per wedge
+    std::vector<double> clouds_;  // cloud_stride_ per wedge
+};
+
+}  // namespace coppice

@@ -1,0 +1,108 @@
+#include "core/simplify/collapse_mesh.h"
+
+#include <cassert>
+
+#include "core/mesh/weld.h"
+#include "core/simplify/wedge_charts.h"
+
+namespace coppice {
+
+CollapseMesh::CollapseMesh(const Mesh& source)
+    : corner_vertex_(source.triangles.size(), no_index),
+      after_(source.triangles.size(), no_index),
+      before_(source.triangles.size(), no_index),
+      first_corner_(source.vertex_count(), no_index),
+      valence_(source.vertex_count(), 0) {
+    WedgeCharts charts = wedge_charts(source);
+    corner_wedge_ = std::move(charts.corner_wedge);
+    wedge_begin_ = std::move(charts.begin);
+    wedge_slot_ = std::move(charts.slot);
+    wedge_source_ = std::move(charts.source);
+    wedge_chart_ = std::move(charts.chart);
+
+    // Backwards, so that every list ascends.
+    for (size_t t = source.triangle_count(); t-- > 0;) {
+        const uint32_t a = source.corner_vertex(t, 0), b = source.corner_vertex(t, 1),
+                       c = source.corner_vertex(t, 2);
+        if (a == b || b == c || c == a) continue;
+        const auto corner = static_cast<uint32_t>(3 * t);
+        corner_vertex_[corner] = a, corner_vertex_[corner + 1] = b, corner_vertex_[corner + 2] = c;
+        for (uint32_t k = 3; k-- > 0;) link(corner + k);
+        ++live_triangles_;
+    }
+
+    positions_.reserve(source.vertex_count());
+    for (uint32_t v = 0; v < source.vertex_count(); ++v) {
+        positions_.push_back(to_double(source.positions[v]));
+        if (is_live_vertex(v)) box_.extend(positions_[v]);
+    }
+    if (box_.empty()) return;
+    const Vec3d centre = (box_.min + box_.max) * 0.5;
+    for (Vec3d& p : positions_) p = p - centre;
+    box_.min = box_.min - centre;
+    box_.max = box_.max - centre;
+}
+
+void CollapseMesh::link(uint32_t corner) {
+    const uint32_t vertex = corner_vertex_[corner];
+    const uint32_t head = first_corner_[vertex];
+    before_[corner] = no_index;
+    after_[corner] = head;
+    if (head != no_index) before_[head] = corner;
+    first_corner_[vertex] = corner;
+    if (++valence_[vertex] == 1) ++live_vertices_;
+}
+
+void CollapseMesh::unlink(uint32_t corner) {
+    const uint32_t vertex = corner_vertex_[corner];
+    const uint32_t before = before_[corner], after = after_[corner];
+    if (before == no_index) {
+        first_corner_[vertex] = after;
+    } else {
+        after_[before] = after;
+    }
+    if (after != no_index) before_[after] = before;
+    if (--valence_[vertex] == 0) --live_vertices_;
+}
+
+void CollapseMesh::remove_triangle(uint32_t triangle) {
+    for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
+        unlink(corner);
+        corner_vertex_[corner] = no_index;
+    }
+    --live_triangles_;
+}
+
+void CollapseMesh::collapse(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) {
+    const uint32_t first_wedge = wedge_begin_[removed];
+    for (uint32_t corner = first_corner_[removed], after = no_index; corner != no_index; corner = after) {
+        after = after_[corner];
+        if (corner_vertex_[next_corner(corner)] == kept || corner_vertex_[previous_corner(corner)] == kept) {
+            remove_triangle(corner / 3);
+            continue;
+        }
+        unlink(corner);
+        const uint32_t wedge = wedge_map[corner_wedge_[corner] - first_wedge];
+        assert(wedge != no_index);
+        corner_wedge_[corner] = wedge;
+        corner_vertex_[corner] = kept;
+        link(corner);
+    }
+}
+
+Mesh CollapseMesh::extract(const Mesh& source) const {
+    Mesh mesh = source;
+    mesh.triangles.clear();
+    mesh.triangle_slot.clear();
+    for (uint32_t t = 0; t < triangle_count(); ++t) {
+        if (!is_live_triangle(t)) continue;
+        for (uint32_t corner = 3 * t; corner < 3 * t + 3; ++corner) {
+            mesh.triangles.push_back(wedge_source_[corner_wedge_[corner]]);
+        }
+        mesh.triangle_slot.push_back(source.triangle_slot[t]);
+    }
+    drop_unused(mesh);
+    return mesh;
+}
+
+}  // namespace coppice

@@ -1,0 +1,144 @@
+#include "core/simplify/collapse_rules.h"
+
+#include <algorithm>
+
+namespace coppice {
+
+namespace {
+
+constexpr double least_cosine_at_once = 0.25;
+constexpr double least_cosine_since_start = 0.2;
+// A triangle is degenerate when twice its area is below this part of its longest edge squared: in single
+// precision its normal would mean nothing.
+constexpr double degenerate_aspect = 1e-6;
+// Rings longer than this are not gathered; the short rings around them are searched instead.
+constexpr uint32_t long_ring = 64;
+
+bool is_degenerate(Vec3d a, Vec3d b, Vec3d c, Vec3d normal) {
+    const double longest = std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
+    return length(normal) <= degenerate_aspect * longest;
+}
+
+Vec3d area_normal(Vec3d a, Vec3d b, Vec3d c) {
+    return cross(b - a, c - a);
+}
+
+}  // namespace
+
+CollapseRules::CollapseRules(const CollapseMesh& mesh, std::vector<VertexKind> kinds)
+    : mesh_(mesh),
+      kinds_(std::move(kinds)),
+      first_normals_(mesh.triangle_count()),
+      around_removed_(mesh.vertex_count()),
+      around_kept_(mesh.vertex_count()) {
+    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+        if (!mesh.is_live_triangle(t)) continue;
+        const Vec3d a = mesh.position(mesh.corner_vertex(3 * t)),
+                    b = mesh.position(mesh.corner_vertex(3 * t + 1)),
+                    c = mesh.position(mesh.corner_vertex(3 * t + 2));
+        const Vec3d normal = area_normal(a, b, c);
+        if (!is_degenerate(a, b, c, normal)) first_normals_[t] = to_float(normalized(normal));
+    }
+}
+
+bool CollapseRules::kinds_allow(uint32_t removed, uint32_t kept, const Neighbours& around) const {
+    if (mesh_.valence(removed) > largest_removable_valence) return false;
+    if (!allows(kinds_[removed], kinds_[kept])) return false;
+    const uint32_t uses = around.uses(kept);
+    switch (kinds_[removed]) {
+        case VertexKind::border:
+            return uses == 1;
+        case VertexKind::complex: {
+            // Either all edges here are alike (say, two sheets back to back), or the edge is one of the two
+            // of a line that differs from the rest (the rim of such sheets, the foot of a fin).
+            const auto alike = std::count_if(around.all().begin(), around.all().end(),
+                                             [&](uint32_t v) { return around.uses(v) == uses; });
+            return alike == 2 || static_cast<size_t>(alike) == around.all().size();
+        }
+        default:
+            return true;  // a seam's edge is found by the map of its wedges
+    }
+}
+
+Refusal CollapseRules::check(uint32_t removed, uint32_t kept) {
+    if (!keeps_topology(removed, kept)) return Refusal::topology;
+    if (!keeps_orientation(removed, kept)) return Refusal::topology;
+    return Refusal::none;
+}
+
+bool CollapseRules::keeps_topology(uint32_t removed, uint32_t kept) {
+    around_removed_.gather(mesh_, removed);
+    shared_.assign(around_removed_.all().size(), 0);
+    for (uint32_t c = mesh_.first_corner(removed); c != no_index; c = mesh_.corner_after(c)) {
+        const uint32_t a = mesh_.corner_vertex(CollapseMesh::next_corner(c));
+        const uint32_t b = mesh_.corner_vertex(CollapseMesh::previous_corner(c));
+        if (a == kept) ++shared_[around_removed_.place(b)];
+        if (b == kept) ++shared_[around_removed_.place(a)];
+    }
+    const bool gather_kept = mesh_.valence(kept) <= long_ring;
+    if (gather_kept) around_kept_.gather(mesh_, kept);
+    for (uint32_t i = 0; i < shared_.size(); ++i) {
+        const uint32_t x = around_removed_.all()[i];
+        if (x == kept) continue;
+        const uint32_t to_kept = edge_uses(x, kept, gather_kept);
+        if (to_kept == 0) continue;
+        if (shared_[i] == 0) return false;
+        const uint32_t to_removed = around_removed_.uses(x);
+        const uint32_t after = to_removed + to_kept - 2 * shared_[i];
+        if (after == 0 || after > std::max({2U, to_removed, to_kept})) return false;
+    }
+    return !duplicates(removed, kept);
+}
+
+// Triangles at the edge from `kept` to a vertex.
+uint32_t CollapseRules::edge_uses(uint32_t vertex, uint32_t kept, bool ring_gathered) const {
+    if (ring_gathered) return around_kept_.uses(vertex);
+    uint32_t uses = 0;
+    for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c)) {
+        uses += mesh_.corner_vertex(CollapseMesh::next_corner(c)) == kept ||
+                mesh_.corner_vertex(CollapseMesh::previous_corner(c)) == kept;
+    }
+    return uses;
+}
+
+// Whether a triangle that moves would land on one that is there, in either orientation.
+bool CollapseRules::duplicates(uint32_t removed, uint32_t kept) {
+    for (uint32_t c = mesh_.first_corner(removed); c != no_index; c = mesh_.corner_after(c)) {
+        uint32_t a = mesh_.corner_vertex(CollapseMesh::next_corner(c));
+        uint32_t b = mesh_.corner_vertex(CollapseMesh::previous_corner(c));
+        if (a == kept || b == kept) continue;
+        if (shared_[around_removed_.place(a)] == 0 || shared_[around_removed_.place(b)] == 0) continue;
+        if (mesh_.valence(b) < mesh_.valence(a)) std::swap(a, b);
+        for (uint32_t d = mesh_.first_corner(a); d != no_index; d = mesh_.corner_after(d)) {
+            const uint32_t e = mesh_.corner_vertex(CollapseMesh::next_corner(d));
+            const uint32_t f = mesh_.corner_vertex(CollapseMesh::previous_corner(d));
+            if ((e == kept && f == b) || (e == b && f == kept)) return true;
+        }
+    }
+    return false;
+}
+
+bool CollapseRules::keeps_orientation(uint32_t removed, uint32_t kept) const {
+    const Vec3d from = mesh_.position(removed), to = mesh_.position(kept);
+    for (uint32_t c = mesh_.first_corner(removed); c != no_index; c = mesh_.corner_after(c)) {
+        const uint32_t next = mesh_.corner_vertex(CollapseMesh::next_corner(c));
+        const uint32_t previous = mesh_.corner_vertex(CollapseMesh::previous_corner(c));
+        if (next == kept || previous == kept) continue;
+        const Vec3d a = mesh_.position(next), b = mesh_.position(previous);
+        const Vec3d before = area_normal(from, a, b), after = area_normal(to, a, b);
+        const double size = length(after);
+        const Vec3f first = first_normals_[c / 3];
+        if (is_degenerate(to, a, b, after)) {
+            if (!is_degenerate(from, a, b, before)) return false;
+            continue;
+        }
+        if (!is_degenerate(from, a, b, before) &&
+            dot(before, after) < least_cosine_at_once * length(before) * size) {
+            return false;
+        }
+        if (first != Vec3f{} && dot(to_double(first), after) < least_cosine_since_start * size) return false;
+    }
+    return true;
+}
+
+}  // namespace coppice

@@ -1,0 +1,50 @@
+// Whether moving all triangles of one vertex to a neighbour keeps the surface sound.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/simplify/collapse_mesh.h"
+#include "core/simplify/neighbours.h"
+#include "core/simplify/vertex_kind.h"
+
+namespace coppice {
+
+// The first rule that a collapse breaks.
+enum class Refusal : uint8_t {
+    none,
+    locked,    // by the kinds of its vertices, or a seam without counterpart
+    topology,  // it would join, close, duplicate or drop something, or flip or flatten a triangle
+    bounds,    // the box of the mesh would shrink
+    error,     // beyond the target's error
+};
+
+// Vertices of more triangles than this are not removed, which keeps every check short, whatever the mesh.
+inline constexpr uint32_t largest_removable_valence = 128;
+
+class CollapseRules {
+  public:
+    CollapseRules(const CollapseMesh& mesh, std::vector<VertexKind> kinds);
+
+    // Whether kinds allow the collapse along this edge. `around` holds the neighbours of `removed`.
+    bool kinds_allow(uint32_t removed, uint32_t kept, const Neighbours& around) const;
+
+    // Link condition (Dey and others 1999), no duplicate triangle, no edge with more triangles than before
+    // where that makes it non-manifold, nothing dropped; no triangle turned by more than about 75 degrees,
+    // neither now nor since the start, none made degenerate. The edge exists.
+    Refusal check(uint32_t removed, uint32_t kept);
+
+  private:
+    bool keeps_topology(uint32_t removed, uint32_t kept);
+    bool duplicates(uint32_t removed, uint32_t kept);
+    bool keeps_orientation(uint32_t removed, uint32_t kept) const;
+    uint32_t edge_uses(uint32_t vertex, uint32_t other, bool ring_gathered) const;
+
+    const CollapseMesh& mesh_;
+    std::vector<VertexKind> kinds_;
+    std::vector<Vec3f> first_normals_;  // per triangle at the start; unit, zero when degenerate
+    Neighbours around_removed_, around_kept_;
+    std::vector<uint32_t> shared_;  // per neighbour of `removed`: triangles that also hold `kept`
+};
+
+}  // namespace coppice

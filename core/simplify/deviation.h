@@ -1,0 +1,34 @@
+// How far the surface has moved: an estimate that is carried along with the collapses, not a bound.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/simplify/collapse_mesh.h"
+
+namespace coppice {
+
+// Distance from a point to a triangle, inside and edges included.
+double distance_to_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c);
+
+class Deviation {
+  public:
+    explicit Deviation(const CollapseMesh& mesh) : mesh_(mesh), carried_(mesh.vertex_count(), 0.0) {}
+
+    // What the vertex that stays would stand for: the distance from the vertex that goes to the nearest
+    // triangle that replaces its ring, on top of what that vertex has gathered before. The mesh is as before
+    // the collapse.
+    double after(uint32_t removed, uint32_t kept) const;
+
+    // To be called with every collapse, with the result of after().
+    void merge(uint32_t kept, double deviation);
+
+    double largest() const { return largest_; }
+
+  private:
+    const CollapseMesh& mesh_;
+    std::vector<double> carried_;  // per vertex, mesh units
+    double largest_ = 0;
+};
+
+}  // namespace coppice

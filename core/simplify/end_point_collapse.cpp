@@ -1,0 +1,129 @@
+#include "core/simplify/end_point_collapse.h"
+
+#include <algorithm>
+
+namespace coppice {
+
+namespace {
+
+// The box may lose 1 % of its diagonal; rounding in writers needs a little of that.
+constexpr double bounds_tolerance_of_diagonal = 0.009;
+
+double way(uint32_t first, uint32_t now, std::optional<uint64_t> target) {
+    if (!target || *target >= first) return target ? 1.0 : 0.0;
+    return static_cast<double>(first - now) / static_cast<double>(first - *target);
+}
+
+}  // namespace
+
+EndPointCollapse::EndPointCollapse(const Mesh& source, const Target& target, const EndPointOptions& options,
+                                   const Watch& watch)
+    : source_(source),
+      target_(target),
+      max_geometric_error_(options.max_geometric_error),
+      mesh_(source),
+      features_(find_features(mesh_, watch)),
+      clouds_(mesh_, source, options.scales),
+      errors_(mesh_, features_.edges, clouds_, options.weights),
+      rules_(mesh_, features_.kinds),
+      bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal()),
+      deviation_(mesh_),
+      wedge_map_(mesh_, clouds_),
+      around_(mesh_.vertex_count()),
+      first_triangles_(mesh_.live_triangles()),
+      first_vertices_(mesh_.live_vertices()) {
+    watch.check();
+}
+
+bool EndPointCollapse::done() const {
+    if (target_.triangles && mesh_.live_triangles() <= *target_.triangles) return true;
+    return target_.vertices && mesh_.live_vertices() <= *target_.vertices;
+}
+
+double EndPointCollapse::fraction() const {
+    const double by_triangles = way(first_triangles_, mesh_.live_triangles(), target_.triangles);
+    const double by_vertices = way(first_vertices_, mesh_.live_vertices(), target_.vertices);
+    const double by_removal = first_triangles_ > 0 ? way(first_triangles_, mesh_.live_triangles(), 0) : 1.0;
+    return std::clamp(std::max({by_triangles, by_vertices, by_removal}), 0.0, 1.0);
+}
+
+std::optional<double> EndPointCollapse::cost_around(uint32_t removed, uint32_t kept) {
+    if (!rules_.kinds_allow(removed, kept, around_) || !wedge_map_.find(removed, kept)) {
+        ++refusals_[static_cast<size_t>(Refusal::locked)];
+        return {};
+    }
+    const UnifiedError::Cost cost = errors_.cost(removed, kept, wedge_map_.wedges());
+    if (max_geometric_error_ && cost.geometric > *max_geometric_error_) {
+        ++beyond_max_geometric_error_;
+        return {};
+    }
+    return cost.unified;
+}
+
+std::optional<double> EndPointCollapse::cost(uint32_t removed, uint32_t kept) {
+    around_.gather(mesh_, removed);
+    return cost_around(removed, kept);
+}
+
+Candidate EndPointCollapse::next_candidate(uint32_t removed, std::optional<Candidate> after) {
+    if (mesh_.valence(removed) > largest_removable_valence) {
+        ++refusals_[static_cast<size_t>(Refusal::locked)];
+        return {};
+    }
+    around_.gather(mesh_, removed);
+    Candidate best;
+    for (const uint32_t kept : around_.all()) {
+        const std::optional<double> error = cost_around(removed, kept);
+        if (!error) continue;
+        const Candidate candidate = {kept, *error};
+        if (after && !(*after < candidate)) continue;
+        if (candidate < best) best = candidate;
+    }
+    return best;
+}
+
+Refusal EndPointCollapse::check(uint32_t removed, uint32_t kept) {
+    if (!wedge_map_.find(removed, kept)) return Refusal::locked;
+    if (!bounds_.may_remove(removed)) return Refusal::bounds;
+    const Refusal refusal = rules_.check(removed, kept);
+    if (refusal != Refusal::none) return refusal;
+    next_deviation_ = deviation_.after(removed, kept);
+    const bool too_far = target_.error_model_units && next_deviation_ > *target_.error_model_units;
+    return too_far ? Refusal::error : Refusal::none;
+}
+
+Refusal EndPointCollapse::try_collapse(uint32_t removed, uint32_t kept) {
+    const Refusal refusal = check(removed, kept);
+    if (refusal != Refusal::none) {
+        ++refusals_[static_cast<size_t>(refusal)];
+        return refusal;
+    }
+    errors_.merge(removed, kept, wedge_map_.wedges());
+    deviation_.merge(kept, next_deviation_);
+    bounds_.remove(removed);
+    mesh_.collapse(removed, kept, wedge_map_.wedges());
+    return Refusal::none;
+}
+
+void EndPointCollapse::forget_refusals() {
+    refusals_ = {};
+    beyond_max_geometric_error_ = 0;
+}
+
+// A limit that was set is the reason wherever it stopped anything; else what stopped most.
+StopReason EndPointCollapse::reason_for_refusals() const {
+    const auto count = [this](Refusal r) { return refusals_[static_cast<size_t>(r)]; };
+    if (count(Refusal::error) > 0) return StopReason::error_limit;
+    if (beyond_max_geometric_error_ > 0) return StopReason::threshold;
+    if (count(Refusal::topology) == 0 && count(Refusal::bounds) == 0) return StopReason::locked;
+    return count(Refusal::topology) >= count(Refusal::bounds) ? StopReason::topology : StopReason::bounds;
+}
+
+Simplified EndPointCollapse::finish(StopReason reason) const {
+    return {.mesh = mesh_.extract(source_),
+            .error_model_units = deviation_.largest(),
+            .certified = false,
+            .stop_reason = reason};
+}
+
+}  // namespace coppice

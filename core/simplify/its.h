@@ -1,0 +1,42 @@
+// ITS: instanced textured simplification. S. Tariq, A. U. Rahman, T. Azim, R. G. Khan, "Instanced model
+// simplification using combined geometric and appearance-related metric", arXiv 2101.02570.
+//
+// Idea: simplify each unique mesh once, for all its instances; collapse the edge with the least unified error
+// of geometry, normals, UVs and colours (unified_error.h) onto the end where that error is smaller. As
+// positions and wedges of the result are some of the input's, every instance, skin, morph target and custom
+// attribute stays valid.
+//
+// mode=full (default) ranks all edges. mode=faithful ranks by error only the pairs that the paper's threshold
+// t leaves: edges shorter than t, where t doubles while there is none and halves while there are more than
+// ten. In effect that collapses about the shortest edges first and is there for reproduction.
+//
+// Guarantees, in both modes: no new non-manifold edge, no flipped triangle (collapse_rules.h), borders and UV
+// seams and borders between materials stay (vertex_kind.h, wedge_map.h), the bounding box shrinks by less
+// than 1 % of its diagonal on each side. The reported error is an estimate (deviation.h), not a bound.
+//
+// Complexity: O(F log F) time for F triangles of bounded valence, about 400 bytes per triangle with normals
+// and UVs. Vertices of more than 128 triangles stay.
+//
+// Departures from the paper, and why:
+// - Both modes: the validity rules, which the paper does not have and without which its output folds; a pair
+// is an edge (it
+//   says "edge or distance < t" and then "edge and distance < t"; the algorithm listing fits the second);
+//   "valid pairs < 0" is read as "= 0". Where t has more than ten pairs and t/2 none, the ten shortest are
+//   taken, since it would swing for ever. The paper interpolates attributes at the merged vertex, although
+//   its merged vertex is always an old one: then interpolation gives that vertex' own values, and these are
+//   taken as they are.
+// - full: quadrics weighted by area and Gamma = sqrt(Q / area), which makes Gamma a length that can be added
+// to the attribute
+//   errors; planes that hold borders and seams; short edges first on flat ground.
+// - faithful: unweighted quadrics as printed, Gamma = sqrt(Q / number of planes) for the sake of units. Where
+// the pairs under
+//   t are all refused, the next longer ones are taken.
+#pragma once
+
+#include "core/simplify/algorithm.h"
+
+namespace coppice {
+
+Algorithm its();
+
+}  // namespace coppice

@@ -1,0 +1,33 @@
+#include "core/simplify/registry.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/error.h"
+#include "core/simplify/its.h"
+
+namespace coppice {
+
+std::span<const Algorithm> algorithms() {
+    static const std::array<Algorithm, 1> list = {its()};
+    return list;
+}
+
+const Algorithm& default_algorithm() {
+    return find_algorithm("its");
+}
+
+const Algorithm& find_algorithm(std::string_view id) {
+    const std::span<const Algorithm> list = algorithms();
+    const auto found =
+        std::find_if(list.begin(), list.end(), [id](const Algorithm& a) { return a.id == id; });
+    if (found != list.end()) return *found;
+    std::vector<std::string_view> ids;
+    for (const Algorithm& a : list) ids.push_back(a.id);
+    fail(ErrorCode::option_invalid, "algorithm",
+         fmt::format("algorithm \"{}\" does not exist; it may be {}", id, fmt::join(ids, ", ")));
+}
+
+}  // namespace coppice

@@ -1,0 +1,124 @@
+#include "core/simplify/unified_error.h"
+
+#include <cmath>
+
+namespace coppice {
+
+namespace {
+
+constexpr double border_weight = 10;  // of a plane across a border, relative to that of a triangle of edge^2
+constexpr double seam_weight = 1;     // for each side
+// Where planes cannot tell collapses apart, the square of the edge's length does, so small as not to be seen
+// elsewhere.
+constexpr double flat_preference = 1e-6;
+
+}  // namespace
+
+UnifiedError::UnifiedError(const CollapseMesh& mesh, std::span<const FeatureEdge> features,
+                           AttributeClouds& clouds, PlaneWeights weights)
+    : mesh_(mesh),
+      clouds_(clouds),
+      weights_(weights),
+      quadrics_(mesh.vertex_count()),
+      plane_weight_(mesh.vertex_count()),
+      area_(mesh.vertex_count()),
+      spread_(size_t{mesh.vertex_count()} * clouds.channels()) {
+    add_planes(mesh);
+    if (weights == PlaneWeights::area) add_constraints(features);
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        for (uint32_t w = mesh.wedge_begin(v); w < mesh.wedge_end(v); ++w) {
+            for (uint32_t k = 0; k < clouds.channels(); ++k) {
+                spread_[size_t{v} * clouds.channels() + k].weight += clouds.weight(w, k);
+            }
+        }
+    }
+}
+
+void UnifiedError::add_planes(const CollapseMesh& mesh) {
+    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+        if (!mesh.is_live_triangle(t)) continue;
+        const uint32_t v[] = {mesh.corner_vertex(3 * t), mesh.corner_vertex(3 * t + 1),
+                              mesh.corner_vertex(3 * t + 2)};
+        const Vec3d a = mesh.position(v[0]);
+        const Vec3d twice_area = cross(mesh.position(v[1]) - a, mesh.position(v[2]) - a);
+        const double area = 0.5 * length(twice_area);
+        if (!(area > 0)) continue;
+        const double weight = weights_ == PlaneWeights::area ? area : 1.0;
+        const Quadric plane = plane_quadric(normalized(twice_area), a, weight);
+        for (const uint32_t vertex : v) {
+            quadrics_[vertex] += plane;
+            plane_weight_[vertex] += weight;
+            area_[vertex] += area;
+        }
+    }
+}
+
+// Planes through border and seam edges, perpendicular to the triangle.
+void UnifiedError::add_constraints(std::span<const FeatureEdge> features) {
+    for (const FeatureEdge& f : features) {
+        const Vec3d a = mesh_.position(mesh_.corner_vertex(3 * f.triangle));
+        const Vec3d normal = cross(mesh_.position(mesh_.corner_vertex(3 * f.triangle + 1)) - a,
+                                   mesh_.position(mesh_.corner_vertex(3 * f.triangle + 2)) - a);
+        const Vec3d edge = mesh_.position(f.b) - mesh_.position(f.a);
+        const double weight = squared_length(edge) * (f.is_border ? border_weight : seam_weight);
+        const Quadric plane = plane_quadric(normalized(cross(edge, normal)), mesh_.position(f.a), weight);
+        quadrics_[f.a] += plane;
+        quadrics_[f.b] += plane;
+    }
+}
+
+UnifiedError::Cost UnifiedError::cost(uint32_t removed, uint32_t kept,
+                                      const std::vector<uint32_t>& wedge_map) const {
+    const Vec3d p = mesh_.position(kept);
+    const double planes = plane_weight_[removed] + plane_weight_[kept];
+    double mean_square = planes > 0 ? (quadrics_[removed] + quadrics_[kept])(p) / planes : 0;
+    if (weights_ == PlaneWeights::area) {
+        mean_square += flat_preference * squared_length(mesh_.position(removed) - p);
+    }
+    Cost cost;
+    cost.geometric = std::sqrt(mean_square);
+
+    double weight = area_[removed] + area_[kept];
+    double sum = weight * cost.geometric;
+    const uint32_t channels = clouds_.channels();
+    for (uint32_t k = 0; k < channels; ++k) {
+        const Spread& mine = spread_[size_t{removed} * channels + k];
+        const Spread& its = spread_[size_t{kept} * channels + k];
+        const double x0 = mine.weight + its.weight;
+        if (!(x0 > 0)) continue;
+        const double squared = its.squared + gathered_error(removed, wedge_map, k);
+        weight += x0;
+        sum += std::sqrt(x0 * squared);  // X0 A = X0 sqrt(Pi / X0)
+    }
+    cost.unified = weight > 0 ? sum / weight : 0;
+    return cost;
+}
+
+// Pi of all clouds of the vertex that goes, each at the wedge that takes its place.
+double UnifiedError::gathered_error(uint32_t removed, const std::vector<uint32_t>& wedge_map,
+                                    uint32_t channel) const {
+    double sum = 0;
+    const uint32_t first = mesh_.wedge_begin(removed);
+    for (uint32_t i = 0; i < wedge_map.size(); ++i) {
+        if (wedge_map[i] != no_index) sum += clouds_.squared_error(first + i, wedge_map[i], channel);
+    }
+    return sum;
+}
+
+void UnifiedError::merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) {
+    const uint32_t channels = clouds_.channels();
+    for (uint32_t k = 0; k < channels; ++k) {
+        Spread& its = spread_[size_t{kept} * channels + k];
+        its.squared += gathered_error(removed, wedge_map, k);
+        its.weight += spread_[size_t{removed} * channels + k].weight;
+    }
+    const uint32_t first = mesh_.wedge_begin(removed);
+    for (uint32_t i = 0; i < wedge_map.size(); ++i) {
+        if (wedge_map[i] != no_index) clouds_.merge(first + i, wedge_map[i]);
+    }
+    quadrics_[kept] += quadrics_[removed];
+    plane_weight_[kept] += plane_weight_[removed];
+    area_[kept] += area_[removed];
+}
+
+}  // namespace coppice

@@ -1,0 +1,112 @@
+#include "core/simplify/vertex_kind.h"
+
+#include "core/simplify/neighbours.h"
+
+namespace coppice {
+
+namespace {
+
+// One edge from the vertex in question, as its triangles show it.
+struct Spoke {
+    uint32_t neighbour = 0;
+    uint32_t uses = 0;
+    uint32_t near_chart = 0, far_chart = 0;  // of the first triangle
+    uint32_t triangles[2] = {0, 0};
+    bool breaks = false;  // a later triangle has other charts
+    uint32_t fan = 0;     // union-find parent, index of a spoke
+
+    bool is_border() const { return uses == 1; }
+    bool is_seam() const { return uses == 2 && breaks; }
+};
+
+class Classifier {
+  public:
+    explicit Classifier(const CollapseMesh& mesh) : mesh_(mesh), neighbours_(mesh.vertex_count()) {}
+
+    VertexKind classify(uint32_t vertex) {
+        gather_spokes(vertex);
+        uint32_t borders = 0, seams = 0, fans = 0;
+        bool crowded = false;
+        for (uint32_t i = 0; i < spokes_.size(); ++i) {
+            borders += spokes_[i].is_border();
+            seams += spokes_[i].is_seam();
+            crowded |= spokes_[i].uses > 2;
+            fans += root(i) == i;
+        }
+        if (crowded || fans > 1) return VertexKind::complex;
+        if (borders == 0 && seams == 0) return VertexKind::manifold;
+        if (borders == 2 && seams == 0) return VertexKind::border;
+        if (borders == 0 && seams == 2) return VertexKind::seam;
+        return VertexKind::corner;
+    }
+
+    // Edges are reported from their lower vertex.
+    void append_features(uint32_t vertex, std::vector<FeatureEdge>& edges) const {
+        for (const Spoke& s : spokes_) {
+            if (s.neighbour < vertex || !(s.is_border() || s.is_seam())) continue;
+            for (uint32_t side = 0; side < s.uses; ++side) {
+                edges.push_back({vertex, s.neighbour, s.triangles[side], s.is_border()});
+            }
+        }
+    }
+
+  private:
+    void gather_spokes(uint32_t vertex) {
+        neighbours_.gather(mesh_, vertex);
+        spokes_.assign(neighbours_.all().size(), Spoke{});
+        for (uint32_t i = 0; i < spokes_.size(); ++i) {
+            spokes_[i].neighbour = neighbours_.all()[i];
+            spokes_[i].fan = i;
+        }
+        for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c)) {
+            const uint32_t a = use(c, CollapseMesh::next_corner(c));
+            const uint32_t b = use(c, CollapseMesh::previous_corner(c));
+            unite(a, b);
+        }
+    }
+
+    uint32_t use(uint32_t near, uint32_t far) {
+        const uint32_t i = neighbours_.place(mesh_.corner_vertex(far));
+        Spoke& s = spokes_[i];
+        const uint32_t near_chart = mesh_.wedge_chart(mesh_.corner_wedge(near));
+        const uint32_t far_chart = mesh_.wedge_chart(mesh_.corner_wedge(far));
+        if (s.uses == 0) {
+            s.near_chart = near_chart;
+            s.far_chart = far_chart;
+        }
+        s.breaks |= s.near_chart != near_chart || s.far_chart != far_chart;
+        if (s.uses < 2) s.triangles[s.uses] = near / 3;
+        ++s.uses;
+        return i;
+    }
+
+    uint32_t root(uint32_t i) {
+        while (spokes_[i].fan != i) i = spokes_[i].fan = spokes_[spokes_[i].fan].fan;
+        return i;
+    }
+    void unite(uint32_t a, uint32_t b) {
+        a = root(a), b = root(b);
+        spokes_[a < b ? b : a].fan = a < b ? a : b;
+    }
+
+    const CollapseMesh& mesh_;
+    Neighbours neighbours_;
+    std::vector<Spoke> spokes_;
+};
+
+}  // namespace
+
+Features find_features(const CollapseMesh& mesh, const Watch& watch) {
+    Features features;
+    features.kinds.assign(mesh.vertex_count(), VertexKind::corner);
+    Classifier classifier(mesh);
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        if (v % 4096 == 0) watch.check();
+        if (!mesh.is_live_vertex(v)) continue;
+        features.kinds[v] = classifier.classify(v);
+        classifier.append_features(v, features.edges);
+    }
+    return features;
+}
+
+}  // namespace coppice

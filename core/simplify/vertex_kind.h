@@ -1,0 +1,53 @@
+// What the surface is like at each vertex before anything is collapsed, and which collapses that forbids.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/watch.h"
+#include "core/simplify/collapse_mesh.h"
+
+namespace coppice {
+
+enum class VertexKind : uint8_t {
+    manifold,  // a disc inside one chart
+    border,    // on one open border, off seams
+    seam,      // on one seam: UVs, slots or other protected attributes break along two edges
+    corner,    // borders and seams meet or end here; it stays
+    complex,   // an edge with more than two triangles, or several fans
+};
+
+inline constexpr size_t vertex_kinds = 5;
+
+// may_collapse[removed][kept]. A line (border, seam) shortens along itself only, so it may end in a corner;
+// the edge must also be of the line, see edge_allows. Nothing else moves a corner.
+inline constexpr std::array<std::array<bool, vertex_kinds>, vertex_kinds> may_collapse = {{
+    //  manifold border seam  corner complex
+    {{true, true, true, true, true}},       // manifold
+    {{false, true, false, true, true}},     // border
+    {{false, false, true, true, true}},     // seam
+    {{false, false, false, false, false}},  // corner
+    {{false, false, false, true, true}},    // complex
+}};
+
+inline bool allows(VertexKind removed, VertexKind kept) {
+    return may_collapse[static_cast<size_t>(removed)][static_cast<size_t>(kept)];
+}
+
+// An edge of a border or a seam, with one triangle at it. Seams are listed once per side.
+struct FeatureEdge {
+    uint32_t a = 0, b = 0;
+    uint32_t triangle = 0;
+    bool is_border = false;
+};
+
+struct Features {
+    std::vector<VertexKind> kinds;  // per vertex
+    std::vector<FeatureEdge> edges;
+};
+
+// O(triangles). Throws when the watch is stopped.
+Features find_features(const CollapseMesh& mesh, const Watch& watch);
+
+}  // namespace coppice

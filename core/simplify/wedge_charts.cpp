@@ -1,0 +1,147 @@
+#include "core/simplify/wedge_charts.h"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace coppice {
+
+namespace {
+
+// Orders wedges by what must not be merged: equal wedges form a chart. Values are compared as bits: any order
+// will do, and NaN has none.
+class HardValues {
+  public:
+    explicit HardValues(const Mesh& mesh) {
+        for (const Attribute& a : mesh.attributes) add(a);
+        for (const MorphTarget& target : mesh.morph_targets) {
+            for (const Attribute& delta : target.deltas) {
+                if (delta.name != "TANGENT") add(delta);
+            }
+        }
+    }
+
+    bool empty() const { return streams_.empty(); }
+
+    int compare(uint32_t a, uint32_t b) const {
+        for (const Stream& s : streams_) {
+            const float* values = s.attribute->values.data();
+            const size_t n = s.attribute->components;
+            if (const int order = std::memcmp(values + a * n + s.first, values + b * n + s.first,
+                                              (n - s.first) * sizeof(float))) {
+                return order;
+            }
+        }
+        return 0;
+    }
+
+  private:
+    struct Stream {
+        const Attribute* attribute;
+        size_t first;  // components before it may differ
+    };
+
+    void add(const Attribute& a) {
+        if (a.name == "NORMAL" || a.name.starts_with("COLOR_")) return;
+        if (a.name == "TANGENT") {  // its direction follows the normal, its handedness the UV map
+            if (a.components == 4) streams_.push_back({&a, 3});
+            return;
+        }
+        streams_.push_back({&a, 0});
+    }
+
+    std::vector<Stream> streams_;
+};
+
+struct SlotWedge {
+    uint32_t wedge, slot;
+};
+
+// The distinct (wedge, slot) pairs that corners use. Nearly all wedges have one slot, so only the others are
+// sorted.
+std::vector<SlotWedge> used_pairs(const Mesh& mesh) {
+    constexpr uint32_t unused = UINT32_MAX;
+    std::vector<uint32_t> first_slot(mesh.wedge_count(), unused);
+    std::vector<std::pair<uint32_t, uint32_t>> more;
+    for (size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+        const uint32_t wedge = mesh.triangles[corner];
+        const uint32_t slot = mesh.triangle_slot[corner / 3];
+        if (first_slot[wedge] == unused) first_slot[wedge] = slot;
+        if (first_slot[wedge] != slot) more.emplace_back(wedge, slot);
+    }
+    std::sort(more.begin(), more.end());
+    more.erase(std::unique(more.begin(), more.end()), more.end());
+    std::vector<SlotWedge> pairs;
+    for (uint32_t wedge = 0; wedge < first_slot.size(); ++wedge) {
+        if (first_slot[wedge] != unused) pairs.push_back({wedge, first_slot[wedge]});
+    }
+    for (const auto& [wedge, slot] : more) pairs.push_back({wedge, slot});
+    return pairs;
+}
+
+// Counting sort by vertex; fills begin.
+std::vector<SlotWedge> by_vertex(const Mesh& mesh, const std::vector<SlotWedge>& pairs,
+                                 std::vector<uint32_t>& begin) {
+    begin.assign(mesh.vertex_count() + 1, 0);
+    for (const SlotWedge& p : pairs) ++begin[mesh.wedge_vertex[p.wedge] + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<uint32_t> next(begin.begin(), begin.end() - 1);
+    std::vector<SlotWedge> sorted(pairs.size());
+    for (const SlotWedge& p : pairs) sorted[next[mesh.wedge_vertex[p.wedge]]++] = p;
+    return sorted;
+}
+
+// Sorts the wedges of every vertex into charts and names each chart by its first wedge.
+std::vector<uint32_t> find_charts(const Mesh& mesh, const std::vector<uint32_t>& begin,
+                                  std::vector<SlotWedge>& wedges) {
+    const HardValues hard(mesh);
+    const auto order = [&hard](const SlotWedge& a, const SlotWedge& b) {
+        if (a.slot != b.slot) return a.slot < b.slot ? -1 : 1;
+        return hard.compare(a.wedge, b.wedge);
+    };
+    std::vector<uint32_t> chart(wedges.size());
+    for (size_t v = 0; v + 1 < begin.size(); ++v) {
+        std::sort(wedges.begin() + begin[v], wedges.begin() + begin[v + 1],
+                  [&order](const SlotWedge& a, const SlotWedge& b) {
+                      const int difference = order(a, b);
+                      return difference != 0 ? difference < 0 : a.wedge < b.wedge;
+                  });
+        for (uint32_t w = begin[v]; w < begin[v + 1]; ++w) {
+            const bool same = w > begin[v] && order(wedges[w - 1], wedges[w]) == 0;
+            chart[w] = same ? chart[w - 1] : w;
+        }
+    }
+    return chart;
+}
+
+}  // namespace
+
+WedgeCharts wedge_charts(const Mesh& mesh) {
+    WedgeCharts charts;
+    std::vector<SlotWedge> wedges = by_vertex(mesh, used_pairs(mesh), charts.begin);
+    charts.chart = find_charts(mesh, charts.begin, wedges);
+    for (const SlotWedge& w : wedges) {
+        charts.source.push_back(w.wedge);
+        charts.slot.push_back(w.slot);
+    }
+    // Back from corners to wedges: the last wedge of each source wedge, and a search among its vertex' for
+    // the rest.
+    std::vector<uint32_t> last(mesh.wedge_count(), 0);
+    for (uint32_t w = 0; w < wedges.size(); ++w) last[wedges[w].wedge] = w;
+    charts.corner_wedge.resize(mesh.triangles.size());
+    for (size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+        const uint32_t source = mesh.triangles[corner];
+        const uint32_t slot = mesh.triangle_slot[corner / 3];
+        uint32_t w = last[source];
+        if (charts.slot[w] != slot) {
+            w = charts.begin[mesh.wedge_vertex[source]];
+            while (charts.source[w] != source || charts.slot[w] != slot) ++w;
+        }
+        charts.corner_wedge[corner] = w;
+    }
+    return charts;
+}
+
+}  // namespace coppice

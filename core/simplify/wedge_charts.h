@@ -1,0 +1,22 @@
+// Splits wedges by slot, orders them by vertex and finds charts. The part of CollapseMesh that reads
+// attributes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+
+namespace coppice {
+
+struct WedgeCharts {
+    std::vector<uint32_t> source;        // per wedge: the source's wedge
+    std::vector<uint32_t> slot;          // per wedge
+    std::vector<uint32_t> chart;         // per wedge: the first wedge of its chart
+    std::vector<uint32_t> begin;         // per vertex + 1: its wedges
+    std::vector<uint32_t> corner_wedge;  // per corner
+};
+
+WedgeCharts wedge_charts(const Mesh& mesh);
+
+}  // namespace coppice
