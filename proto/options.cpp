@@ -130,8 +130,9 @@ constexpr std::string_view parameter_prefix = "parameters.";
 
 std::vector<std::string_view> option_names() {
     std::vector<std::string_view> names;
+    names.reserve(rules.size() + 1);
     for (const Rule& rule : rules) names.push_back(rule.name);
-    names.push_back("parameters");
+    names.emplace_back("parameters");
     return names;
 }
 
@@ -148,16 +149,22 @@ void apply(const Given& given, OptimizeOptions& options) {
 }
 
 // Typed, so that options which mean the same print the same wherever they came from.
-void resolve_parameters(OptimizeOptions& options) {
+void resolve_parameters(bool is_json, OptimizeOptions& options) {
     const Algorithm& algorithm =
         options.algorithm.empty() ? default_algorithm() : find_algorithm(options.algorithm);
     const ParameterValues values = ParameterValues::parse(algorithm.parameters, options.parameters);
-    for (auto& [id, value] : options.parameters) value = values.all().find(id)->second;
+    for (auto& [id, value] : options.parameters) {
+        const ParameterValue& typed = values.all().find(id)->second;
+        require(!is_json || typed.index() == value.index(), ErrorCode::option_invalid, "parameters." + id,
+                "parameters.{0} is the text \"{1}\"; in JSON it is given without quotes", id,
+                std::holds_alternative<std::string>(value) ? std::get<std::string>(value) : "");
+        value = typed;
+    }
 }
 
-OptimizeOptions finish(OptimizeOptions options) {
+OptimizeOptions finish(bool is_json, OptimizeOptions options) {
     validate(options);
-    resolve_parameters(options);
+    resolve_parameters(is_json, options);
     return options;
 }
 
@@ -173,7 +180,8 @@ Given from_text(const std::string& name, const std::string& value) {
         .name = name, .value = value, .is_json = false, .shown = value.empty() ? "empty" : shorten(value)};
 }
 
-Given from_json(const std::string& name, const nlohmann::json& value) {
+// Not from_json: nlohmann 3.11.3 (Debian 13) looks that name up for every type and stumbles over this one.
+Given given_in_json(const std::string& name, const nlohmann::json& value) {
     Given given = {.name = name, .value = {}, .is_json = true, .shown = shorten(print_json(value))};
     if (value.is_boolean()) {
         given.value = value.get<bool>();
@@ -192,7 +200,7 @@ void apply_parameters(const nlohmann::json& parameters, OptimizeOptions& options
             "parameters is {}; it takes an object with the algorithm's own parameters",
             shorten(print_json(parameters)));
     for (const auto& [id, value] : parameters.items())
-        apply(from_json(fmt::format("parameters.{}", id), value), options);
+        apply(given_in_json(fmt::format("parameters.{}", id), value), options);
 }
 
 }  // namespace
@@ -209,7 +217,7 @@ OptimizeOptions parse_options(const std::vector<std::pair<std::string, std::stri
                 "parameters.NAME");
         apply(from_text(name, value), options);
     }
-    return finish(std::move(options));
+    return finish(false, std::move(options));
 }
 
 OptimizeOptions parse_options_json(std::string_view json) {
@@ -224,9 +232,9 @@ OptimizeOptions parse_options_json(std::string_view json) {
         }
         require(!name.starts_with(parameter_prefix), ErrorCode::option_invalid, name,
                 "{} is how a query names a parameter; in JSON, parameters is an object", name);
-        apply(from_json(name, value), options);
+        apply(given_in_json(name, value), options);
     }
-    return finish(std::move(options));
+    return finish(true, std::move(options));
 }
 
 std::string print_options(const OptimizeOptions& options) {

@@ -31,8 +31,8 @@ class Resources {
     ByteView find(std::string_view uri, std::string_view where) const;
 
     // The same for a plain path, which is not percent-decoded. Null when the upload has no such file: first
-    // the exact path relative to the asset's folder, then the base name if it is unique. Throws
-    // resource_forbidden as find does.
+    // the exact path relative to the asset's folder, then to the upload's root, then the base name if it is
+    // unique. Throws resource_forbidden as find does.
     const ResourceFile* find_path(std::string_view path, std::string_view where) const;
 
     // "; the upload has a.png, b.bin and 3 more", for messages.

@@ -62,14 +62,29 @@ uint64_t instance_count(const Scene& scene) {
     return count;
 }
 
-Bounds scene_bounds(const Scene& scene) {
+Bounds scene_bounds(const Scene& scene, std::span<const Instance> instances) {
+    std::vector<Bounds> local;
+    for (const Mesh& mesh : scene.meshes) local.push_back(bounds(mesh.positions));
+    const auto is_inside = [](const Bounds& inner, const Bounds& outer) {
+        return inner.min.x >= outer.min.x && inner.min.y >= outer.min.y && inner.min.z >= outer.min.z &&
+               inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z;
+    };
     Bounds box;
-    for (const Instance& instance : instances(scene)) {
+    for (const Instance& instance : instances) {  // a point of each: most of the box, at once
+        const auto& positions = scene.meshes[instance.mesh].positions;
+        if (!positions.empty()) box.extend(instance.world.point(to_double(positions.front())));
+    }
+    for (const Instance& instance : instances) {
+        if (is_inside(transform_bounds(instance.world, local[instance.mesh]), box)) continue;
         for (const Vec3f& position : scene.meshes[instance.mesh].positions) {
             box.extend(instance.world.point(to_double(position)));
         }
     }
     return box;
+}
+
+Bounds scene_bounds(const Scene& scene) {
+    return scene_bounds(scene, instances(scene));
 }
 
 }  // namespace coppice

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/scene/scene.h"
@@ -25,7 +26,10 @@ std::vector<Instance> instances(const Scene& scene);
 // How many instances instances() would give, without making them.
 uint64_t instance_count(const Scene& scene);
 
-// World-space bounds of all instances: the box of every transformed position, exact.
+// World-space bounds of all instances: the box of every transformed position, exact. An instance whose box's
+// corners lie inside of what is known already is not looked at closer, so that thousands of instances cost
+// little.
 Bounds scene_bounds(const Scene& scene);
+Bounds scene_bounds(const Scene& scene, std::span<const Instance> instances);
 
 }  // namespace coppice

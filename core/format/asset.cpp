@@ -1,0 +1,131 @@
+#include "core/format/asset.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/format/archive.h"
+#include "core/format/detect.h"
+#include "core/format/obj/read_obj.h"
+#include "core/format/resources.h"
+
+namespace coppice {
+
+namespace {
+
+constexpr size_t most_entries_listed = 10;
+
+size_t depth(std::string_view path) {
+    return static_cast<size_t>(std::count(path.begin(), path.end(), '/'));
+}
+
+std::string folder(std::string_view path) {
+    const size_t slash = path.rfind('/');
+    return std::string(path.substr(0, slash == path.npos ? 0 : slash));
+}
+
+std::string listing(const std::vector<std::string>& paths) {
+    std::string out;
+    for (size_t i = 0; i < std::min(paths.size(), most_entries_listed); ++i) {
+        out += fmt::format("{}\"{}\"", i > 0 ? ", " : "", paths[i]);
+    }
+    if (paths.size() > most_entries_listed)
+        out += fmt::format(" and {} more", paths.size() - most_entries_listed);
+    return out;
+}
+
+// By name, as a zip of textures and readmes has many files that only their content would rule out.
+std::vector<const NamedFile*> assets_nearest_the_root(const std::vector<NamedFile>& files) {
+    std::vector<const NamedFile*> nearest;
+    for (const NamedFile& file : files) {
+        if (!format_from_file_name(file.path)) continue;
+        if (!nearest.empty() && depth(file.path) > depth(nearest.front()->path)) continue;
+        if (!nearest.empty() && depth(file.path) < depth(nearest.front()->path)) nearest.clear();
+        nearest.push_back(&file);
+    }
+    return nearest;
+}
+
+std::vector<std::string> paths_of(const std::vector<NamedFile>& files) {
+    std::vector<std::string> paths;
+    for (const NamedFile& file : files) paths.push_back(file.path);
+    return paths;
+}
+
+const NamedFile& choose_asset(const std::vector<NamedFile>& files, const std::string& entry) {
+    if (!entry.empty()) {
+        const auto at =
+            std::find_if(files.begin(), files.end(), [&](const NamedFile& f) { return f.path == entry; });
+        require(at != files.end(), ErrorCode::option_invalid, "entry",
+                "entry \"{}\" is not in the zip; it has {}", entry, listing(paths_of(files)));
+        return *at;
+    }
+    const auto assets = assets_nearest_the_root(files);
+    require(!assets.empty(), ErrorCode::asset_unsupported, "",
+            "no file of the zip is named .glb, .gltf, .obj, .iobj, .ply or .stl; it has {}",
+            files.empty() ? "no files" : listing(paths_of(files)));
+    std::vector<std::string> names;
+    for (const NamedFile* asset : assets) names.push_back(asset->path);
+    require(assets.size() == 1, ErrorCode::asset_ambiguous, "entry",
+            "the zip has {} assets: choose one with entry={}", assets.size(), listing(names));
+    return *assets.front();
+}
+
+ReadAsset read_file(ByteView bytes, Format format, const Resources& resources, const ReadLimits& limits,
+                    const Watch& watch) {
+    switch (format) {
+        case Format::obj:
+        case Format::iobj:
+            return {read_obj(bytes, resources, limits, watch), format};
+        case Format::glb:
+        case Format::gltf:
+        case Format::ply:
+        case Format::stl:
+            break;
+    }
+    fail(ErrorCode::asset_unsupported, "", fmt::format("{} is not read", id(format)));
+}
+
+// A client's own path may be absolute or a Windows one; it is only a name to be found under.
+std::string tidy_client_path(std::string_view path) {
+    std::string out(path);
+    std::replace(out.begin(), out.end(), '\\', '/');
+    return out.substr(std::min(out.find_first_not_of("/"), out.size()));
+}
+
+std::vector<ResourceFile> files_beside(const Upload& upload) {
+    std::vector<ResourceFile> files;
+    for (const UploadedFile& file : upload.resources)
+        files.push_back({tidy_client_path(file.path), file.bytes});
+    return files;
+}
+
+ReadAsset read_archive(const Upload& upload, const std::string& media_type, const ReadLimits& limits,
+                       const Watch& watch) {
+    const std::vector<NamedFile> files = read_zip(upload.asset.bytes, limits, watch.part(0, 0.2));
+    const NamedFile& asset = choose_asset(files, upload.entry);
+    const Format format = detect(asset.bytes, media_type, asset.path);
+    std::vector<ResourceFile> resources = files_beside(upload);
+    for (const NamedFile& file : files) {
+        if (&file != &asset) resources.push_back({file.path, file.bytes});
+    }
+    return read_file(asset.bytes, format, Resources(std::move(resources), folder(asset.path)), limits,
+                     watch.part(0.2, 1));
+}
+
+}  // namespace
+
+ReadAsset read_asset(const Upload& upload, const ReadLimits& limits, const Watch& watch) {
+    const std::string media_type = told_media_type(upload.asset.media_type);
+    if (recognise(upload.asset.bytes).is_zip) return read_archive(upload, media_type, limits, watch);
+    require(!is_zip_media_type(media_type) || upload.asset.bytes.empty(), ErrorCode::asset_format_mismatch,
+            "", "the media type is {}, but the content is no zip", media_type);
+    require(upload.entry.empty(), ErrorCode::option_invalid, "entry",
+            "entry=\"{}\" takes a zip, and this is none", upload.entry);
+    const std::string path = tidy_client_path(upload.asset.path);
+    const Format format = detect(upload.asset.bytes, media_type, path);
+    return read_file(upload.asset.bytes, format, Resources(files_beside(upload), folder(path)), limits,
+                     watch);
+}
+
+}  // namespace coppice

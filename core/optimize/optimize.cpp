@@ -1,0 +1,167 @@
+#include "core/optimize/optimize.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/base/error.h"
+#include "core/optimize/check.h"
+#include "core/optimize/engine.h"
+#include "core/optimize/plan.h"
+#include "core/optimize/simplify_meshes.h"
+#include "core/optimize/summary.h"
+#include "core/scene/expand.h"
+#include "core/simplify/registry.h"
+
+namespace coppice {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Tells the listener which stage it is, runs it, and notes how long it took.
+template <typename Body>
+auto timed(const Watch& watch, std::string_view stage, double& milliseconds, Body&& body) {
+    watch.check();
+    if (watch.stage) watch.stage(stage);
+    const Clock::time_point start = Clock::now();
+    auto result = body();
+    milliseconds = milliseconds_since(start);
+    return result;
+}
+
+// Where each stage's part of the progress ends.
+constexpr double read_ends = 0.15, simplify_ends = 0.85;
+
+Upload with_entry(Upload upload, const OptimizeOptions& options) {
+    if (upload.entry.empty()) upload.entry = options.entry;
+    return upload;
+}
+
+uint64_t bytes_of(const Upload& upload) {
+    uint64_t bytes = upload.asset.bytes.size();
+    for (const UploadedFile& file : upload.resources) bytes += file.bytes.size();
+    return bytes;
+}
+
+Format output_format(const OptimizeOptions& options, Format input) {
+    if (options.format) return *options.format;
+    return input == Format::obj || input == Format::iobj ? Format::iobj : Format::glb;
+}
+
+std::vector<MeshReport> mesh_reports(const Scene& scene, const Placement& placement,
+                                     const std::vector<Simplified>& simplified) {
+    std::vector<MeshReport> reports;
+    for (size_t i = 0; i < simplified.size(); ++i) {
+        const double world_error = simplified[i].error_model_units * placement.scale(i);
+        reports.push_back(
+            {.name = scene.meshes[i].name,
+             .instances = placement.of_mesh[i].size(),
+             .triangles_in = scene.meshes[i].triangle_count(),
+             .triangles_out = simplified[i].mesh.triangle_count(),
+             .error_model_units = simplified[i].error_model_units,
+             .error_diagonal_fraction = placement.diagonal > 0 ? world_error / placement.diagonal : 0,
+             .certified = simplified[i].certified,
+             .stop_reason = simplified[i].stop_reason});
+    }
+    return reports;
+}
+
+// The input's instances, in their order, against the ones that are written.
+std::vector<InstanceMapping> map_instances(const std::vector<Instance>& before, const Scene& written,
+                                           bool flattened) {
+    const std::vector<Instance> after = flattened ? std::vector<Instance>{} : instances(written);
+    std::vector<InstanceMapping> map;
+    for (size_t i = 0; i < before.size(); ++i) {
+        if (flattened) {
+            map.push_back({before[i].node, static_cast<uint32_t>(i), 0});
+        } else {
+            map.push_back({before[i].node, after[i].mesh, after[i].in_batch});
+        }
+    }
+    return map;
+}
+
+void append(std::vector<Warning>& warnings, std::vector<Warning> more) {
+    warnings.insert(warnings.end(), std::make_move_iterator(more.begin()),
+                    std::make_move_iterator(more.end()));
+}
+
+void describe(Report& report, const Algorithm& algorithm, const OptimizeOptions& options) {
+    report.algorithm = algorithm.id;
+    report.parameters = ParameterValues::parse(algorithm.parameters, options.parameters);
+    report.engine_version = engine_version();
+    report.engine_build = engine_build();
+}
+
+// Replaces each of the scene's meshes by its simplified self.
+Placement simplify(Scene& scene, const Algorithm& algorithm, const OptimizeOptions& options,
+                   const Watch& watch, Report& report) {
+    Placement placement = place(scene);
+    report.input = summarize(scene, placement.counts(), false, {}, 0);
+    const std::vector<Target> targets = plan_targets(scene, placement, algorithm, report.parameters, options);
+    std::vector<Simplified> simplified = simplify_meshes(scene.meshes, placement, targets, algorithm,
+                                                         report.parameters, options.threads, watch);
+    report.meshes = mesh_reports(scene, placement, simplified);
+    append(report.warnings, std::move(scene.warnings));
+    append(report.warnings, check_result(scene, placement, targets, simplified, options));
+    for (size_t i = 0; i < simplified.size(); ++i) scene.meshes[i] = std::move(simplified[i].mesh);
+    return placement;
+}
+
+// Plain OBJ stores a copy per instance whatever is asked; the writer makes them.
+WrittenAsset write(Scene& scene, const Placement& placement, Format format, Instancing instancing,
+                   const Watch& watch, Report& report) {
+    const bool flattened = format == Format::obj;
+    if (instancing == Instancing::expand && !flattened) scene = expand_meshes(scene);
+    WrittenAsset asset = write_asset(scene, {.format = format, .instancing = instancing}, watch);
+
+    const std::vector<uint64_t> counts = flattened ? placement.counts() : instances_per_mesh(scene);
+    append(report.warnings, asset.warnings);
+    report.output = summarize(scene, counts, flattened, format, asset.bytes.size());
+    report.savings = savings(report.input.bytes, report.output.bytes, asset.mesh_bytes,
+                             flattened ? std::vector<uint64_t>{} : counts);
+    report.instancing = {.given = placement.instances.size(),
+                         .unique = report.output.meshes,
+                         .map = map_instances(placement.instances, scene, flattened)};
+    return asset;
+}
+
+}  // namespace
+
+Optimized optimize(const Upload& upload, const OptimizeOptions& options, const ReadLimits& limits,
+                   const Watch& watch) {
+    const Clock::time_point start = Clock::now();
+    validate(options);
+    const Algorithm& algorithm =
+        options.algorithm.empty() ? default_algorithm() : find_algorithm(options.algorithm);
+    Optimized result;
+    Report& report = result.report;
+    StageTimes& times = report.timing_ms;
+    describe(report, algorithm, options);
+
+    ReadAsset input = timed(watch, "read", times.read, [&] {
+        return read_asset(with_entry(upload, options), limits, watch.part(0, read_ends));
+    });
+    const Format format = output_format(options, input.format);
+    check_output(format, options.instancing);
+
+    const Placement placement = timed(watch, "simplify", times.simplify, [&] {
+        return simplify(input.scene, algorithm, options, watch.part(read_ends, simplify_ends), report);
+    });
+    report.input.format = input.format;
+    report.input.bytes = bytes_of(upload);
+
+    result.asset = timed(watch, "write", times.write, [&] {
+        return write(input.scene, placement, format, options.instancing, watch.part(simplify_ends, 1),
+                     report);
+    });
+    watch.report(1);
+    times.total = milliseconds_since(start);
+    return result;
+}
+
+}  // namespace coppice

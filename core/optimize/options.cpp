@@ -1,0 +1,50 @@
+#include "core/optimize/options.h"
+
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/optimize/plan.h"
+#include "core/simplify/registry.h"
+
+namespace coppice {
+
+void check_output(Format format, Instancing instancing) {
+    require(is_writable(format), ErrorCode::option_invalid, "format",
+            "format {} can be read but not written; format takes glb, gltf, obj or iobj", id(format));
+    const bool possible = [&] {
+        switch (format) {
+            case Format::obj:
+                return instancing == Instancing::automatic || instancing == Instancing::expand;
+            case Format::iobj:
+                return instancing == Instancing::automatic || instancing == Instancing::nodes;
+            default:
+                return true;
+        }
+    }();
+    require(possible, ErrorCode::option_conflict, "instancing",
+            "with format {} instancing is auto or {}; glb and gltf take every kind", id(format),
+            format == Format::obj ? "expand" : "nodes");
+}
+
+void validate(const OptimizeOptions& options) {
+    const Algorithm& algorithm =
+        options.algorithm.empty() ? default_algorithm() : find_algorithm(options.algorithm);
+    const ParameterValues parameters = ParameterValues::parse(algorithm.parameters, options.parameters);
+
+    const auto ratio = options.ratio.value_or(1);
+    require(ratio > 0 && ratio <= 1, ErrorCode::option_invalid, "ratio",
+            "ratio is {}; it takes a number over 0 and at most 1", ratio);
+    require(options.triangles.value_or(1) >= 1, ErrorCode::option_invalid, "triangles",
+            "triangles is 0; it takes a whole number of at least 1");
+    const auto error = options.error.value_or(1);
+    require(std::isfinite(error) && error > 0, ErrorCode::option_invalid, "error",
+            "error is {}; it takes a number over 0, as a fraction of the scene's diagonal", error);
+    require(!options.ratio || !options.triangles, ErrorCode::option_conflict, "triangles",
+            "ratio and triangles exclude each other: give the one that is the target");
+    require(!options.triangles || parameters.choice("stop") != "vertices", ErrorCode::option_conflict,
+            "triangles",
+            "with parameters.stop=vertices the target is ratio, which then counts vertices, not triangles");
+    if (options.format) check_output(*options.format, options.instancing);
+}
+
+}  // namespace coppice

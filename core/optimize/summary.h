@@ -1,0 +1,22 @@
+// Counts and sizes for reports. For use inside core/optimize.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/optimize/report.h"
+
+namespace coppice {
+
+std::vector<uint64_t> instances_per_mesh(const Scene& scene);
+
+// expanded: the file stores one copy of a mesh per instance, as OBJ does and instancing=expand asks for.
+AssetSummary summarize(const Scene& scene, std::span<const uint64_t> instances_of_mesh, bool expanded,
+                       Format format, uint64_t bytes);
+
+// What instancing saves is computed from the bytes that each mesh's geometry takes in the file, once for each
+// further instance; writing the expanded file to measure it would cost more than it tells.
+Savings savings(uint64_t input_bytes, uint64_t output_bytes, std::span<const uint64_t> mesh_bytes,
+                std::span<const uint64_t> instances_of_mesh);
+
+}  // namespace coppice
