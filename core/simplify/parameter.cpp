@@ -94,9 +94,10 @@ const Parameter& find(std::span<const Parameter> parameters, const std::string& 
     if (found != parameters.end()) return *found;
     std::vector<std::string_view> ids;
     for (const Parameter& p : parameters) ids.push_back(p.id);
-    fail(ErrorCode::option_unknown, id,
-         ids.empty() ? fmt::format("\"{}\" is not a parameter; this algorithm takes none", id)
-                     : fmt::format("\"{}\" is not a parameter of this algorithm; it takes {}", id,
+    const std::string name = "parameters." + id.substr(0, 64);
+    fail(ErrorCode::option_unknown, name,
+         ids.empty() ? fmt::format("{} is not a parameter; this algorithm takes none", name)
+                     : fmt::format("{} is not a parameter of this algorithm, which takes {}", name,
                                    fmt::join(ids, ", ")));
 }
 
@@ -117,8 +118,8 @@ ParameterValues ParameterValues::parse(std::span<const Parameter> parameters,
     for (const auto& [id, text] : given) {
         const Parameter& p = find(parameters, id);
         const std::optional<ParameterValue> value = parse_value(p, text);
-        require(value.has_value(), ErrorCode::option_invalid, id, "{} is {}; it must be {}", id, print(text),
-                describe(p));
+        require(value.has_value(), ErrorCode::option_invalid, "parameters." + id,
+                "parameters.{} is {}; it takes {}", id, print(text), describe(p));
         parsed.values_.insert_or_assign(id, *value);
     }
     return parsed;
