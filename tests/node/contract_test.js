@@ -202,9 +202,7 @@ test('bad assets are problems that say what and where', async () => {
     const job = await finished(id_of(answer));
     assert.equal(job.status, 'failed');
     assert.equal(job.problem.code, 'asset.malformed');
-    await refused('get', '/v1/jobs/{id}/result', 409, 'asset.malformed', { id: job.id }).catch(async () => {
-        await refused('get', '/v1/jobs/{id}/result', 409, 'job.unfinished', { id: job.id });
-    });
+    await refused('get', '/v1/jobs/{id}/result', 409, 'asset.malformed', { id: job.id });
 });
 
 test('a path that does not exist is a problem too', async () => {

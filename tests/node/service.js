@@ -20,8 +20,8 @@ async function startService(coppice, flags = []) {
         const late = setTimeout(() => reject(new Error(`the service did not start in 20 s:\n${log}`)), 20_000);
         const read = (chunk) => {
             log += chunk;
-            const found = /127\.0\.0\.1:(\d+)/.exec(log);
-            if (!found || found[1] === '0') return;
+            const found = /"event":"listening".*"port":(\d+)/.exec(log);
+            if (!found) return;
             clearTimeout(late);
             resolve(Number(found[1]));
         };
