@@ -17,14 +17,8 @@ skip() {
 # Only root starts an engine. A user whose engine runs already needs no more.
 if ! docker info >/dev/null 2>&1 && [ "$(id -u)" != 0 ]; then
     sudo -n true 2>/dev/null || skip "no container engine runs, and this user may not start one"
-    exec sudo -n "$0" "$coppice"
+    exec sudo -n "$PWD/tests/compose/run.sh" "$coppice"
 fi
-
-# Checkouts of this repository may be tested at the same time, and share the engine's data.
-data=/var/cache/coppice-compose-test
-[ "$(id -u)" != 0 ] || mkdir -p $data
-exec 9>"${TMPDIR:-/tmp}/coppice-compose-test.lock"
-flock --wait 1200 9 || skip "another run of this test holds the engine"
 
 work=$(mktemp -d)
 dockerd=
@@ -53,7 +47,12 @@ trap clean_up EXIT
 start_engine() {
     script/bootstrap engine || skip "no container engine runs, and Debian's could not be installed"
     if docker info >/dev/null 2>&1; then return; fi # its package may have started it
-    dockerd --data-root $data --exec-root "$work/exec" --pidfile "$work/pid" --host "unix://$work/docker.sock" \
+    # Kept between runs for its images, and shared by all checkouts: one at a time.
+    local data=/var/cache/coppice-compose-test
+    mkdir -p $data
+    exec 9>$data/lock
+    flock --wait 1200 9 || skip "another run of this test holds the engine"
+    dockerd --data-root $data/docker --exec-root "$work/exec" --pidfile "$work/pid" --host "unix://$work/docker.sock" \
         >"$work/dockerd.log" 2>&1 9>&- &
     dockerd=$!
     export DOCKER_HOST=unix://$work/docker.sock
