@@ -90,7 +90,7 @@ ReadAsset read_file(ByteView bytes, Format format, const Resources& resources, c
 std::string tidy_client_path(std::string_view path) {
     std::string out(path);
     std::replace(out.begin(), out.end(), '\\', '/');
-    return out.substr(std::min(out.find_first_not_of("/"), out.size()));
+    return out.substr(std::min(out.find_first_not_of('/'), out.size()));
 }
 
 std::vector<ResourceFile> files_beside(const Upload& upload) {
