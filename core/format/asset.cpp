@@ -7,7 +7,10 @@
 #include "core/format/archive.h"
 #include "core/format/detect.h"
 #include "core/format/obj/read_obj.h"
+#include "core/format/obj/write_obj.h"
+#include "core/format/ply/read_ply.h"
 #include "core/format/resources.h"
+#include "core/format/stl/read_stl.h"
 
 namespace coppice {
 
@@ -71,16 +74,18 @@ const NamedFile& choose_asset(const std::vector<NamedFile>& files, const std::st
     return *assets.front();
 }
 
-ReadAsset read_file(ByteView bytes, Format format, const Resources& resources, const ReadLimits& limits,
-                    const Watch& watch) {
+ReadAsset read_file(const UploadedFile& file, Format format, const Resources& resources,
+                    const ReadLimits& limits, const Watch& watch) {
     switch (format) {
         case Format::obj:
         case Format::iobj:
-            return {read_obj(bytes, resources, limits, watch), format};
+            return {read_obj(file.bytes, resources, limits, watch), format};
+        case Format::ply:
+            return {read_ply(file.bytes, file.path, resources, limits, watch), format};
+        case Format::stl:
+            return {read_stl(file.bytes, file.path, limits, watch), format};
         case Format::glb:
         case Format::gltf:
-        case Format::ply:
-        case Format::stl:
             break;
     }
     fail(ErrorCode::asset_unsupported, "", fmt::format("{} is not read", id(format)));
@@ -109,11 +114,51 @@ ReadAsset read_archive(const Upload& upload, const std::string& media_type, cons
     for (const NamedFile& file : files) {
         if (&file != &asset) resources.push_back({file.path, file.bytes});
     }
-    return read_file(asset.bytes, format, Resources(std::move(resources), folder(asset.path)), limits,
-                     watch.part(0.2, 1));
+    return read_file({asset.path, {}, asset.bytes}, format,
+                     Resources(std::move(resources), folder(asset.path)), limits, watch.part(0.2, 1));
+}
+
+void require_instancing_fits(const WriteOptions& options) {
+    const Instancing wanted = options.instancing;
+    const bool fits =
+        options.format == Format::obj    ? wanted == Instancing::automatic || wanted == Instancing::expand
+        : options.format == Format::iobj ? wanted == Instancing::automatic || wanted == Instancing::nodes
+                                         : true;
+    require(fits, ErrorCode::option_conflict, "instancing", "format={} takes instancing=auto or {}",
+            id(options.format), options.format == Format::obj ? "expand" : "nodes");
+}
+
+// Files that belong together leave as a zip, one alone as it is.
+WrittenAsset packed(ObjFiles written, const WriteOptions& options, const Watch& watch) {
+    WrittenAsset out;
+    out.mesh_bytes = std::move(written.mesh_bytes);
+    out.warnings = std::move(written.warnings);
+    const bool alone = written.files.size() == 1;
+    out.bytes = alone ? std::move(written.files.front().bytes) : write_zip(written.files, watch);
+    out.media_type = alone ? media_type(options.format) : "application/zip";
+    out.file_extension = alone ? id(options.format) : "zip";
+    return out;
 }
 
 }  // namespace
+
+WrittenAsset write_asset(const Scene& scene, const WriteOptions& options, const Watch& watch) {
+    require(is_writable(options.format), ErrorCode::option_invalid, "format",
+            "format={} is not written; glb, gltf, obj and iobj are", id(options.format));
+    require_instancing_fits(options);
+    switch (options.format) {
+        case Format::obj:
+            return packed(write_obj(scene, options, watch), options, watch);
+        case Format::iobj:
+            return packed(write_iobj(scene, options, watch), options, watch);
+        case Format::glb:
+        case Format::gltf:
+        case Format::ply:
+        case Format::stl:
+            break;
+    }
+    fail(ErrorCode::option_invalid, "format", fmt::format("format={} is not written", id(options.format)));
+}
 
 ReadAsset read_asset(const Upload& upload, const ReadLimits& limits, const Watch& watch) {
     const std::string media_type = told_media_type(upload.asset.media_type);
@@ -124,8 +169,8 @@ ReadAsset read_asset(const Upload& upload, const ReadLimits& limits, const Watch
             "entry=\"{}\" takes a zip, and this is none", upload.entry);
     const std::string path = tidy_client_path(upload.asset.path);
     const Format format = detect(upload.asset.bytes, media_type, path);
-    return read_file(upload.asset.bytes, format, Resources(files_beside(upload), folder(path)), limits,
-                     watch);
+    return read_file({path, {}, upload.asset.bytes}, format, Resources(files_beside(upload), folder(path)),
+                     limits, watch);
 }
 
 }  // namespace coppice

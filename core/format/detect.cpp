@@ -9,6 +9,7 @@
 #include "core/format/iobj/directive.h"
 #include "core/format/line_reader.h"
 #include "core/format/resources.h"
+#include "core/format/stl/read_stl.h"
 #include "core/format/utf16.h"
 
 namespace coppice {
@@ -19,7 +20,6 @@ using namespace std::string_view_literals;
 
 constexpr std::string_view what_is_read =
     "glTF 2.0 (glb, gltf), OBJ (obj, iobj), PLY and STL are read, or a zip of one with its resources";
-constexpr size_t stl_header_bytes = 80, stl_triangle_bytes = 50;
 constexpr size_t sniffed_bytes = 64 << 10;
 constexpr size_t sniffed_lines = 400;
 
@@ -69,12 +69,6 @@ std::string_view without_leading_blanks(std::string_view text) {
 
 std::string_view without_byte_order_mark(std::string_view text) {
     return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
-}
-
-bool is_binary_stl(ByteView bytes) {
-    if (bytes.size() < stl_header_bytes + 4) return false;
-    const uint64_t triangles = load_u32(bytes, stl_header_bytes);
-    return bytes.size() == stl_header_bytes + 4 + triangles * stl_triangle_bytes;
 }
 
 // Every line of the beginning is OBJ's, and one of them has geometry or an object.

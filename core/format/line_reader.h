@@ -19,6 +19,7 @@ class Line {
         : begin_(text.data()), at_(text.data()), end_(text.data() + text.size()), number_(number) {}
 
     uint64_t number() const { return number_; }  // from 1
+    void count_from(uint64_t lines_before) { number_ += lines_before; }
     std::string_view text() const { return {begin_, end_}; }
     std::string where() const { return fmt::format("line {}, column {}", number_, at_ - begin_ + 1); }
 
