@@ -107,10 +107,14 @@ Problem to_problem(const std::exception& exception, const std::string& log_id) {
 }
 
 std::string print_problem(const Problem& problem) {
+    return print_problem(problem, http_status(problem.code));
+}
+
+std::string print_problem(const Problem& problem, int status) {
     nlohmann::ordered_json json;
     json["type"] = fmt::format("urn:coppice:problem:{}", name(problem.code));
     json["title"] = title(problem.code);
-    json["status"] = http_status(problem.code);
+    json["status"] = status;
     json["detail"] = problem.detail;
     json["code"] = name(problem.code);
     if (!problem.where.empty()) json["where"] = problem.where;

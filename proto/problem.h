@@ -21,8 +21,10 @@ Problem to_problem(const Error& error);
 // internal with the given id and no what(), which belongs into the log.
 Problem to_problem(const std::exception& exception, const std::string& log_id);
 
-// application/problem+json: {type, title, status, detail, code, where?}
+// application/problem+json: {type, title, status, detail, code, where?}. The status is the code's own, or
+// that of the answer it goes with: the result of a job that failed is a 409, whatever made it fail.
 std::string print_problem(const Problem& problem);
+std::string print_problem(const Problem& problem, int status);
 Problem parse_problem(std::string_view json);
 
 }  // namespace coppice

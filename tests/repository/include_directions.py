@@ -25,10 +25,13 @@ ROOMS = {
     "server/http": CORE + ["proto"],
     "server/store": CORE + ["proto"],
     "server/blobs": CORE + ["proto"],
-    "server/jobs": CORE + ["proto", "server/store", "server/blobs"],
-    "server/routes": CORE + ["proto", "server/http", "server/jobs", "server/store", "server/blobs"],
+    "server/telemetry": CORE + ["proto"],
+    "server/jobs": CORE + ["proto", "server/store", "server/blobs", "server/telemetry"],
+    "server/routes": CORE + [
+        "proto", "server/http", "server/jobs", "server/store", "server/blobs", "server/telemetry"],
     # config and app, which put the others together
-    "server": CORE + ["proto", "server/http", "server/store", "server/blobs", "server/jobs", "server/routes"],
+    "server": CORE + [
+        "proto", "server/http", "server/store", "server/blobs", "server/telemetry", "server/jobs", "server/routes"],
     "cli": CORE + ["proto", "server"],
 }
 

@@ -1,0 +1,80 @@
+#include "server/http/answer.h"
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <new>
+
+namespace coppice {
+namespace {
+
+bool has(const Response& response, std::string_view name) {
+    return std::any_of(response.headers.begin(), response.headers.end(),
+                       [&](const auto& header) { return header.first == name; });
+}
+
+void set_default(Response& response, const char* name, std::string value) {
+    if (!has(response, name)) response.set(name, std::move(value));
+}
+
+std::string http_date() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    ::gmtime_r(&now, &utc);
+    std::array<char, 64> text{};
+    const size_t length = std::strftime(text.data(), text.size(), "%a, %d %b %Y %H:%M:%S GMT", &utc);
+    return {text.data(), length};
+}
+
+}  // namespace
+
+void set_problem(Response& response, const Problem& problem) {
+    set_problem(response, problem, http_status(problem.code));
+}
+
+void set_problem(Response& response, const Problem& problem, int status) {
+    response.status = status;
+    response.content_type = "application/problem+json";
+    response.body = print_problem(problem, status);
+    response.content.reset();
+    if (response.status == 503 || response.status == 429) set_default(response, "Retry-After", "2");
+}
+
+std::string set_problem_of_current_exception(Response& response, const std::string& request_id) {
+    try {
+        throw;
+    } catch (const Error& error) {
+        set_problem(response, to_problem(error));
+        return error.code() == ErrorCode::internal ? error.message() : std::string();
+    } catch (const std::exception& exception) {
+        set_problem(response, to_problem(exception, request_id));
+        return exception.what();
+    } catch (...) {
+        set_problem(response,
+                    {ErrorCode::internal, "something went wrong; the log knows it as " + request_id, {}});
+        return "not a std::exception";
+    }
+}
+
+Answered answer(const Router& router, Request& request, Response& response, bool only_always) {
+    Answered done;
+    try {
+        const Route& route = router.find(request, response);
+        done.route = route.pattern;
+        require(!only_always || route.always, ErrorCode::queue_full, "",
+                "the service has as many connections as it takes (http_connections); try again soon");
+        route.handler(request, response);
+    } catch (...) {
+        done.internal_error = set_problem_of_current_exception(response, request.id);
+    }
+    return done;
+}
+
+void set_common_headers(Response& response, const std::string& request_id) {
+    response.set("Date", http_date());
+    response.set("X-Request-Id", request_id);
+    response.set("X-Content-Type-Options", "nosniff");
+    set_default(response, "Cache-Control", "no-store");
+}
+
+}  // namespace coppice

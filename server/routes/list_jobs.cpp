@@ -1,0 +1,58 @@
+// GET /v1/jobs: newest first, page by page.
+#include <charconv>
+
+#include "core/base/error.h"
+#include "server/routes/routes.h"
+
+namespace coppice {
+namespace {
+
+constexpr size_t default_limit = 100;
+constexpr size_t max_limit = 1000;
+
+uint64_t parse_number(const std::string& name, const std::string& text, uint64_t least, uint64_t most) {
+    uint64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    require(!text.empty() && error == std::errc() && end == text.data() + text.size() && number >= least &&
+                number <= most,
+            ErrorCode::option_invalid, name, "{} is \"{}\"; it takes a whole number from {} to {}", name,
+            text, least, most);
+    return number;
+}
+
+JobQuery parse_query(const Request& request) {
+    JobQuery query;
+    query.limit = default_limit;
+    for (const auto& [name, value] : request.query) {
+        if (name == "status") {
+            query.status = job_status_from_name(value);
+            require(query.status.has_value(), ErrorCode::option_invalid, name,
+                    "status is \"{}\"; it takes queued, running, succeeded, failed or cancelled", value);
+        } else if (name == "limit") {
+            query.limit = parse_number(name, value, 1, max_limit);
+        } else if (name == "cursor") {
+            query.before = parse_number(name, value, 0, UINT64_MAX);
+        } else {
+            fail(ErrorCode::option_unknown, name,
+                 fmt::format("\"{}\" is not known here; it takes status, limit and cursor", name));
+        }
+    }
+    return query;
+}
+
+}  // namespace
+
+Route list_jobs_route(Services& services) {
+    return {"GET", "/v1/jobs", [&services](Request& request, Response& response) {
+                JobPage page = services.store.list(parse_query(request));
+                std::string jobs;
+                for (Job& job : page.jobs) {
+                    job.report.reset();  // long; it has its own path
+                    jobs += (jobs.empty() ? "" : ",") + print_job(job);
+                }
+                const std::string next = page.next ? "\"" + std::to_string(*page.next) + "\"" : "null";
+                response.json(200, R"({"jobs":[)" + jobs + R"(],"next_cursor":)" + next + "}");
+            }};
+}
+
+}  // namespace coppice

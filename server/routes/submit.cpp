@@ -1,0 +1,13 @@
+// POST /v1/jobs: takes an asset and does not wait.
+#include "server/routes/routes.h"
+#include "server/routes/submission.h"
+
+namespace coppice {
+
+Route submit_route(Services& services) {
+    return {"POST", "/v1/jobs", [&services](Request& request, Response& response) {
+                answer_accepted(response, submit_upload(JobKind::optimize, request, response, services));
+            }};
+}
+
+}  // namespace coppice
