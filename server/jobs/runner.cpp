@@ -142,7 +142,7 @@ void Runner::record_end(const Slot& slot, const Claim& claim, const std::string&
     Log::Fields fields = {{"job", slot.id}, {"kind", kind}, {"status", status}, {"ms", seconds * 1000}};
     fields.insert(fields.end(), more.begin(), more.end());
     log_.info("job ended", fields);
-    metrics_.job_done(kind, status, seconds);
+    metrics_.job_done(kind, status, seconds);  // last: whoever sees it counted sees all of it
 }
 
 // The algorithm's threads only leave a note; the heartbeat brings it to the store.

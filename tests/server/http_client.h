@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,6 +17,10 @@ struct Answer {
     std::string body;
 
     std::string header(const std::string& name) const;  // empty when there is none
+
+    friend std::ostream& operator<<(std::ostream& out, const Answer& answer) {
+        return out << answer.status << " " << answer.body.substr(0, 1000);
+    }
 };
 
 using HeaderList = std::vector<std::pair<std::string, std::string>>;

@@ -1,0 +1,10 @@
+// A small zip that would unpack to far more than it has any right to.
+#pragma once
+
+#include <string>
+
+namespace coppice::test {
+
+std::string zip_bomb();  // scene.obj: 200 MB of spaces in 200 KB
+
+}  // namespace coppice::test
