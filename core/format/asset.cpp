@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/format/archive.h"
 #include "core/format/detect.h"
+#include "core/format/gltf/gltf.h"
 #include "core/format/obj/read_obj.h"
 #include "core/format/obj/write_obj.h"
 #include "core/format/ply/read_ply.h"
@@ -86,7 +87,7 @@ ReadAsset read_file(const UploadedFile& file, Format format, const Resources& re
             return {read_stl(file.bytes, file.path, limits, watch), format};
         case Format::glb:
         case Format::gltf:
-            break;
+            return {read_gltf(file.bytes, resources, limits, watch), format};
     }
     fail(ErrorCode::asset_unsupported, "", fmt::format("{} is not read", id(format)));
 }
@@ -140,6 +141,12 @@ WrittenAsset packed(ObjFiles written, const WriteOptions& options, const Watch& 
     return out;
 }
 
+// glTF's JSON goes with a buffer, and often with images.
+WrittenAsset zipped(GltfFiles written, const Watch& watch) {
+    return {write_zip(written.files, watch), "application/zip", "zip", std::move(written.mesh_bytes),
+            std::move(written.warnings)};
+}
+
 }  // namespace
 
 WrittenAsset write_asset(const Scene& scene, const WriteOptions& options, const Watch& watch) {
@@ -152,7 +159,9 @@ WrittenAsset write_asset(const Scene& scene, const WriteOptions& options, const 
         case Format::iobj:
             return packed(write_iobj(scene, options, watch), options, watch);
         case Format::glb:
+            return write_glb(scene, options, watch);
         case Format::gltf:
+            return zipped(write_gltf(scene, options, watch), watch);
         case Format::ply:
         case Format::stl:
             break;

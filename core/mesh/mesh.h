@@ -59,7 +59,9 @@ struct MaterialSlot {
 
 struct Mesh {
     std::string name;
-    std::vector<Vec3f> positions;            // one per vertex, model units
+    std::optional<uint32_t> source_mesh =
+        {};                        // index in the source's meshes, for what is passed through; copies keep it
+    std::vector<Vec3f> positions;  // one per vertex, model units
     Storage position_storage = {};           // floats unless the source was quantized
     std::vector<uint32_t> wedge_vertex;      // one per wedge: the vertex it belongs to
     std::vector<Attribute> attributes;       // each holds values for every wedge

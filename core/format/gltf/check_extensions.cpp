@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include "core/format/gltf/checks.h"
+#include "core/format/gltf/schema.h"
+
+namespace coppice::gltf {
+
+namespace {
+
+// Extensions without a schema here, whose numbers are no indices of accessors or buffer views.
+constexpr std::string_view harmless[] = {
+    "AGI_articulations",
+    "AGI_stk_metadata",
+    "CESIUM_RTC",
+    "EXT_instance_features",
+    "EXT_lights_ies",
+    "EXT_lights_image_based",
+    "EXT_mesh_features",
+    "EXT_texture_avif",
+    "FB_ngon_encoding",
+    "GOOGLE_texture_basis",
+    "KHR_materials_diffuse_transmission",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "KHR_techniques_webgl",
+    "KHR_node_hoverability",
+    "KHR_node_selectability",
+    "KHR_interactivity",
+    "MSFT_lod",
+    "MSFT_packing_normalRoughnessMetallic",
+    "MSFT_packing_occlusionRoughnessMetallic",
+    "MSFT_screencoverage",
+    "MSFT_texture_dds",
+    "NV_materials_mdl",
+    "VRM",
+    "VRMC_materials_mtoon",
+    "VRMC_node_constraint",
+    "VRMC_springBone",
+    "VRMC_vrm",
+};
+
+bool is_known(std::string_view name) {
+    const auto& places = extension_places();
+    return std::any_of(places.begin(), places.end(), [&](const auto& p) { return p.extension == name; }) ||
+           std::find(std::begin(harmless), std::end(harmless), name) != std::end(harmless);
+}
+
+bool holds_index(const Json& value) {
+    if (value.is_number()) return value.is_number_unsigned();
+    return value.is_structured() && std::any_of(value.begin(), value.end(), holds_index);
+}
+
+// Calls see(name, content) for every extension object; extras are the asset's own and not looked into.
+template <typename See>
+void for_each_extension(const Json& value, const See& see) {
+    if (value.is_array())
+        for (const Json& item : value) for_each_extension(item, see);
+    if (!value.is_object()) return;
+    for (const auto& [key, item] : value.items()) {
+        if (key == "extras") continue;
+        if (key == "extensions" && item.is_object())
+            for (const auto& [name, content] : item.items()) see(name, content);
+        for_each_extension(item, see);
+    }
+}
+
+// The objects whose meaning an unknown extension could change under our hands.
+std::string first_geometric_use(const Json& document, std::string_view name) {
+    for (const char* array : {"meshes", "accessors", "bufferViews", "nodes"}) {
+        const Json& items = list(document, array);
+        for (size_t i = 0; i < items.size(); ++i) {
+            if (extension(items[i], name) != nullptr) return pointer(array, i);
+            const Json& primitives = list(items[i], "primitives");
+            for (size_t p = 0; p < primitives.size(); ++p)
+                if (extension(primitives[p], name) != nullptr) return pointer(array, i, "primitives", p);
+        }
+    }
+    return {};
+}
+
+bool is_version(std::string_view text) {
+    const size_t dot = text.find('.');
+    const auto digits = [](std::string_view part) {
+        return !part.empty() &&
+               std::all_of(part.begin(), part.end(), [](char c) { return c >= '0' && c <= '9'; });
+    };
+    return dot != std::string_view::npos && digits(text.substr(0, dot)) && digits(text.substr(dot + 1));
+}
+
+}  // namespace
+
+void check_asset(const Json& document) {
+    demand(document.is_object(), "", "the JSON must be an object, but is {}", document.type_name());
+    // glTF 1.0 need not have an asset object; it has maps where 2.0 has arrays.
+    const Json& asset = member(document, "asset");
+    const bool has_version = asset.is_object() && asset.contains("version") && asset["version"].is_string();
+    require(has_version || !member(document, "meshes").is_object() || member(document, "meshes").empty(),
+            ErrorCode::asset_unsupported, "/asset", "this looks like glTF 1.0; glTF 2.0 is read");
+    if (!has_version) return;  // check_schema says what is wrong
+    const auto version = asset["version"].get<std::string>();
+    demand(is_version(version), "/asset/version", "is '{}'; it must be a version such as 2.0",
+           version.substr(0, 30));
+    require(version.starts_with("2."), ErrorCode::asset_unsupported, "/asset/version",
+            "the asset is glTF {}; glTF 2.0 is read", version.substr(0, 30));
+    if (!asset.contains("minVersion") || !asset["minVersion"].is_string()) return;
+    const auto least = asset["minVersion"].get<std::string>();
+    demand(is_version(least), "/asset/minVersion", "is '{}'; it must be a version such as 2.0",
+           least.substr(0, 30));
+    require(least == "2.0" || least.starts_with("1.") || least.starts_with("0."),
+            ErrorCode::asset_unsupported, "/asset/minVersion", "the asset needs glTF {}; glTF 2.0 is read",
+            least.substr(0, 30));
+}
+
+std::vector<std::string> extensions_with_unknown_indices(const Json& document) {
+    std::set<std::string> found;
+    for_each_extension(document, [&](const std::string& name, const Json& content) {
+        if (!is_known(name) && name != "EXT_structural_metadata" && name != "EXT_feature_metadata" &&
+            holds_index(content))
+            found.insert(name);
+    });
+    // Their property tables are buffer views.
+    for (const char* name : {"EXT_structural_metadata", "EXT_feature_metadata"})
+        if (const Json* metadata = extension(document, name); metadata != nullptr && holds_index(*metadata))
+            found.insert(name);
+    return {found.begin(), found.end()};
+}
+
+void check_extensions(Parsed& parsed) {
+    const Json& document = parsed.json;
+    const Json& used = list(document, "extensionsUsed");
+    const Json& required = list(document, "extensionsRequired");
+    for (size_t i = 0; i < required.size(); ++i) {
+        const auto& name = required[i].get_ref<const std::string&>();
+        demand(std::find(used.begin(), used.end(), name) != used.end(), pointer("extensionsRequired", i),
+               "is {}, which is not in extensionsUsed", name.substr(0, 100));
+        if (is_known(name)) continue;
+        const std::string use = first_geometric_use(document, name);
+        require(use.empty(), ErrorCode::asset_extension_unsupported, use,
+                "{} needs the extension {}, which is required and not known here", use, name.substr(0, 100));
+    }
+    const auto lists = [&](const Json& names, std::string_view name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    demand(!lists(used, "KHR_mesh_quantization") || lists(required, "KHR_mesh_quantization"),
+           "/extensionsUsed", "lists KHR_mesh_quantization, which must be in extensionsRequired too");
+    const std::string compressed = first_geometric_use(document, "KHR_meshopt_compression");
+    require(compressed.empty(), ErrorCode::asset_extension_unsupported, compressed,
+            "{} is compressed with KHR_meshopt_compression, which is not read; EXT_meshopt_compression is",
+            compressed);
+    for (const std::string& name : extensions_with_unknown_indices(document))
+        parsed.warn(
+            "extension.unknown",
+            fmt::format("the extension {} holds numbers that may be indices: it is kept as it is, and all "
+                        "accessors and buffer views keep theirs",
+                        name));
+}
+
+void check_counts(const Json& document, const ReadLimits& limits) {
+    const auto at_most = [&](const char* array, size_t count, uint64_t limit, const char* setting) {
+        require(count <= limit, ErrorCode::asset_too_large, pointer(array),
+                "there are {} {}; at most {} are read (limit {})", count, array, limit, setting);
+    };
+    at_most("nodes", list(document, "nodes").size(), limits.nodes, "nodes");
+    at_most("images", list(document, "images").size(), limits.images, "images");
+    size_t primitives = list(document, "meshes").size();
+    for (const Json& mesh : list(document, "meshes")) primitives += list(mesh, "primitives").size();
+    at_most("meshes", primitives, limits.meshes_and_primitives, "meshes_and_primitives");
+}
+
+}  // namespace coppice::gltf

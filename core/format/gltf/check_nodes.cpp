@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "core/format/gltf/checks.h"
+#include "core/format/gltf/trs.h"
+
+namespace coppice::gltf {
+
+namespace {
+
+constexpr uint32_t none = UINT32_MAX;
+constexpr double quaternion_tolerance = 0.00769;  // as Khronos' validator has it
+
+std::vector<uint32_t> parents_of(const Json& nodes) {
+    std::vector<uint32_t> parents(nodes.size(), none);
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        const Json& children = list(nodes[i], "children");
+        for (size_t c = 0; c < children.size(); ++c) {
+            const auto child = children[c].get<uint32_t>();
+            demand(parents[child] == none, pointer("nodes", i, "children", c),
+                   "is node {}, which is already a child of node {}", child, parents[child]);
+            parents[child] = static_cast<uint32_t>(i);
+        }
+    }
+    return parents;
+}
+
+// Every node has at most one parent here, so a walk up that never ends is a loop.
+void check_depths(const std::vector<uint32_t>& parents, const ReadLimits& limits) {
+    std::vector<uint32_t> depth(parents.size(), 0);
+    for (uint32_t start = 0; start < parents.size(); ++start) {
+        std::vector<uint32_t> path;
+        for (uint32_t node = start; node != none && depth[node] == 0; node = parents[node]) {
+            demand(path.size() < parents.size(), pointer("nodes", start), "is part of a loop of children");
+            path.push_back(node);
+        }
+        for (size_t i = path.size(); i-- > 0;) {
+            depth[path[i]] = parents[path[i]] == none ? 1 : depth[parents[path[i]]] + 1;
+            require(depth[path[i]] <= limits.node_depth, ErrorCode::asset_too_large,
+                    pointer("nodes", path[i]), "{} is deeper than {} levels (limit node_depth)",
+                    pointer("nodes", path[i]), limits.node_depth);
+        }
+    }
+}
+
+void check_transform(Parsed& parsed, size_t index) {
+    Json& node = parsed.json["nodes"][index];
+    const std::string where = pointer("nodes", index);
+    if (node.contains("matrix")) {
+        demand(!node.contains("translation") && !node.contains("rotation") && !node.contains("scale"),
+               where + "/matrix",
+               "stands beside translation, rotation or scale; a node has one or the other");
+        demand(is_valid_node_matrix(node["matrix"].get<std::array<double, 16>>()), where + "/matrix",
+               "cannot be split into translation, rotation and scale");
+    }
+    if (!node.contains("rotation")) return;
+    auto q = node["rotation"].get<std::array<double, 4>>();
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (std::abs(length - 1) <= quaternion_tolerance) return;
+    demand(length > 1e-6, where + "/rotation", "is a quaternion of length {}; it must be 1", length);
+    for (double& v : q) v /= length;
+    node["rotation"] = q;
+    parsed.warn("repair.rotation",
+                fmt::format("{} had a rotation of length {}; it was made 1", where, length),
+                where + "/rotation");
+}
+
+size_t target_count(const Json& document, uint32_t mesh) {
+    return list(document["meshes"][mesh]["primitives"][0], "targets").size();
+}
+
+void check_mesh_use(const Json& document, size_t index) {
+    const Json& node = document["nodes"][index];
+    const auto mesh = index_at(node, "mesh");
+    const std::string where = pointer("nodes", index);
+    for (const char* property : {"skin", "weights"})
+        demand(mesh || !node.contains(property), where + "/" + property,
+               "is there, but the node has no mesh");
+    if (!mesh) return;
+    if (node.contains("weights"))
+        demand(node["weights"].size() == target_count(document, *mesh), where + "/weights",
+               "has {} numbers, but mesh {} has {} morph targets", node["weights"].size(), *mesh,
+               target_count(document, *mesh));
+    const Json& primitives = document["meshes"][*mesh]["primitives"];
+    const bool has_joints = std::any_of(primitives.begin(), primitives.end(), [](const Json& primitive) {
+        return primitive["attributes"].contains("JOINTS_0");
+    });
+    demand(has_joints || !node.contains("skin"), where + "/skin", "is there, but mesh {} has no JOINTS_0",
+           *mesh);
+}
+
+void check_scenes(const Json& document, const std::vector<uint32_t>& parents) {
+    const Json& scenes = list(document, "scenes");
+    for (size_t s = 0; s < scenes.size(); ++s) {
+        const Json& roots = list(scenes[s], "nodes");
+        for (size_t i = 0; i < roots.size(); ++i) {
+            const auto root = roots[i].get<uint32_t>();
+            demand(parents[root] == none, pointer("scenes", s, "nodes", i),
+                   "is node {}, which is not a root: it is a child of node {}", root, parents[root]);
+        }
+    }
+}
+
+uint32_t root_of(const std::vector<uint32_t>& parents, uint32_t node) {
+    while (parents[node] != none) node = parents[node];
+    return node;
+}
+
+std::vector<uint32_t> ancestors(const std::vector<uint32_t>& parents, uint32_t node) {
+    std::vector<uint32_t> path = {node};
+    while (parents[path.back()] != none) path.push_back(parents[path.back()]);
+    return path;
+}
+
+// Joints of a skin hang under one node; the skeleton, if given, is such a node.
+void check_joints(const Json& skin, const std::vector<uint32_t>& parents, const std::string& where) {
+    const Json& joints = skin["joints"];
+    const std::vector<uint32_t> first = ancestors(parents, joints[0].get<uint32_t>());
+    // How many of the joints hang under each ancestor of the first one.
+    size_t common = 0;
+    for (const Json& joint : joints) {
+        const std::vector<uint32_t> path = ancestors(parents, joint.get<uint32_t>());
+        const std::set<uint32_t> on_path(path.begin(), path.end());
+        while (common < first.size() && !on_path.contains(first[common])) ++common;
+    }
+    demand(common < first.size(), where + "/joints", "do not hang under one common root node");
+    const auto skeleton = index_at(skin, "skeleton");
+    demand(!skeleton || std::find(first.begin() + static_cast<std::ptrdiff_t>(common), first.end(),
+                                  *skeleton) != first.end(),
+           where + "/skeleton", "is node {}, which is not above all joints", skeleton.value_or(0));
+}
+
+void check_inverse_bind(Parsed& parsed, const Json& skin, const std::string& skin_pointer) {
+    const auto index = index_at(skin, "inverseBindMatrices");
+    if (!index) return;
+    const std::string where = skin_pointer + "/inverseBindMatrices";
+    set_usage(parsed, *index, Usage::inverse_bind, where);
+    const Accessor& accessor = parsed.accessors[*index];
+    demand(accessor.columns == 4 && accessor.storage.type == ComponentType::float32, where,
+           "is accessor {}, which must be MAT4 of 32-bit floats", *index);
+    demand(accessor.count >= skin["joints"].size(), where, "is accessor {} with {} matrices for {} joints",
+           *index, accessor.count, skin["joints"].size());
+    const auto view = index_at(parsed.json["accessors"][*index], "bufferView");
+    demand(!view || !parsed.json["bufferViews"][*view].contains("byteStride"), where,
+           "is accessor {}, whose buffer view has a byteStride; only vertex attributes may", *index);
+    if (view) set_view_usage(parsed, *view, ViewUsage::inverse_bind, where);
+    if (accessor.has_no_data()) return;
+    for (uint64_t i = 0; i < accessor.count; ++i)
+        for (uint32_t row : {3U, 7U, 11U, 15U})
+            demand(accessor.raw(i, row) == (row == 15 ? 1 : 0), where,
+                   "is accessor {}, whose matrix {} has the last row not 0 0 0 1", *index, i);
+}
+
+// A skinned node is only posed where its joints are: in the same scene.
+void check_skin_scenes(const Json& document, const std::vector<uint32_t>& parents) {
+    const Json& nodes = list(document, "nodes");
+    for (const Json& scene : list(document, "scenes")) {
+        std::set<uint32_t> roots;
+        for (const Json& root : list(scene, "nodes")) roots.insert(root.get<uint32_t>());
+        for (uint32_t i = 0; i < nodes.size(); ++i) {
+            const auto skin = index_at(nodes[i], "skin");
+            if (!skin || !roots.contains(root_of(parents, i))) continue;
+            const auto joint = document["skins"][*skin]["joints"][0].get<uint32_t>();
+            demand(roots.contains(root_of(parents, joint)), pointer("nodes", i),
+                   "has skin {}, whose joints are not in the scene", *skin);
+        }
+    }
+}
+
+}  // namespace
+
+void check_nodes(Parsed& parsed, const ReadLimits& limits) {
+    const Json& nodes = list(parsed.json, "nodes");
+    const std::vector<uint32_t> parents = parents_of(nodes);
+    check_depths(parents, limits);
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        check_transform(parsed, i);
+        check_mesh_use(parsed.json, i);
+    }
+    check_scenes(parsed.json, parents);
+}
+
+void check_skins(Parsed& parsed) {
+    const std::vector<uint32_t> parents = parents_of(list(parsed.json, "nodes"));
+    const Json& skins = list(parsed.json, "skins");
+    for (size_t i = 0; i < skins.size(); ++i) {
+        check_joints(skins[i], parents, pointer("skins", i));
+        check_inverse_bind(parsed, skins[i], pointer("skins", i));
+    }
+    check_skin_scenes(parsed.json, parents);
+}
+
+}  // namespace coppice::gltf

@@ -1,0 +1,121 @@
+#include "core/format/gltf/draco.h"
+
+#include <draco/compression/decode.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+namespace coppice::gltf {
+
+namespace {
+
+std::unique_ptr<draco::Mesh> decode_mesh(ByteView bytes, const std::string& where) {
+    const auto* data = reinterpret_cast<const char*>(bytes.data());
+    draco::DecoderBuffer buffer;
+    buffer.Init(data, bytes.size());
+    auto type = draco::Decoder::GetEncodedGeometryType(&buffer);
+    demand(type.ok() && type.value() == draco::TRIANGULAR_MESH, where, "is not a Draco stream of triangles");
+    buffer.Init(data, bytes.size());
+    draco::Decoder decoder;
+    auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+    demand(decoded.ok(), where, "cannot be decoded: {}", decoded.status().error_msg_string());
+    return std::move(decoded).value();
+}
+
+template <typename T>
+bool convert(const draco::PointAttribute& attribute, draco::AttributeValueIndex index, uint32_t components,
+             std::array<double, 16>& out) {
+    std::array<T, 16> values{};
+    if (!attribute.ConvertValue<T>(index, static_cast<int8_t>(components), values.data())) return false;
+    std::copy_n(values.begin(), components, out.begin());
+    return true;
+}
+
+// Stored numbers of one vertex, as the accessor's component type has them.
+bool stored_value(const draco::PointAttribute& attribute, draco::AttributeValueIndex index,
+                  ComponentType type, uint32_t components, std::array<double, 16>& out) {
+    switch (type) {
+        case ComponentType::int8:
+            return convert<int8_t>(attribute, index, components, out);
+        case ComponentType::uint8:
+            return convert<uint8_t>(attribute, index, components, out);
+        case ComponentType::int16:
+            return convert<int16_t>(attribute, index, components, out);
+        case ComponentType::uint16:
+            return convert<uint16_t>(attribute, index, components, out);
+        case ComponentType::uint32:
+            return convert<uint32_t>(attribute, index, components, out);
+        case ComponentType::float32:
+            return convert<float>(attribute, index, components, out);
+    }
+    return false;
+}
+
+Bytes stored_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, const Accessor& as,
+                    const std::string& where) {
+    const uint32_t components = as.components();
+    demand(attribute.num_components() == static_cast<int>(components), where,
+           "has {} components in the Draco stream, but {} in its accessor", attribute.num_components(),
+           components);
+    Bytes out;
+    out.reserve(size_t{mesh.num_points()} * as.element_size());
+    std::array<double, 16> value{};
+    for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
+        const draco::AttributeValueIndex index = attribute.mapped_index(point);
+        demand(index.value() < attribute.size() &&
+                   stored_value(attribute, index, as.storage.type, components, value),
+               where, "has a Draco value at vertex {} that cannot be read", point.value());
+        for (uint32_t c = 0; c < components; ++c) append_component(out, value[c], as.storage.type);
+    }
+    return out;
+}
+
+void read_triangles(const draco::Mesh& mesh, DracoPrimitive& out, const std::string& where) {
+    out.triangles.reserve(3 * size_t{mesh.num_faces()});
+    for (draco::FaceIndex face(0); face < mesh.num_faces(); ++face)
+        for (const draco::PointIndex& point : mesh.face(face)) {
+            demand(point < mesh.num_points(), where,
+                   "has vertex {} in triangle {}, but there are {} vertices", point.value(), face.value(),
+                   mesh.num_points());
+            out.triangles.push_back(point.value());
+        }
+}
+
+}  // namespace
+
+DracoPrimitive decode_draco(const Parsed& parsed, const Json& primitive, uint64_t triangle_limit,
+                            const std::string& primitive_where) {
+    const Json& json = *extension(primitive, "KHR_draco_mesh_compression");
+    const std::string where = primitive_where + "/extensions/KHR_draco_mesh_compression";
+    demand(unsigned_at(primitive, "mode", 4) >= 4, where, "is on a primitive of points or lines");
+    if (const auto indices = index_at(primitive, "indices"))
+        require(parsed.accessors[*indices].count / 3 <= triangle_limit, ErrorCode::asset_too_large, where,
+                "{} has more triangles than are read (limit triangles)", where);
+    const auto mesh = decode_mesh(parsed.views[*index_at(json, "bufferView")], where);
+    DracoPrimitive out;
+    out.vertex_count = mesh->num_points();
+    require(mesh->num_faces() <= triangle_limit, ErrorCode::asset_too_large, where,
+            "{} has more triangles than are read (limit triangles)", where);
+    read_triangles(*mesh, out, where);
+    const Json& attributes = json["attributes"];
+    out.owned.reserve(attributes.size());
+    for (const auto& [name, id] : attributes.items()) {
+        const std::string at = where + "/attributes/" + name;
+        demand(primitive["attributes"].contains(name), at, "is not among the attributes of the primitive");
+        const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(id.get<uint32_t>());
+        demand(attribute != nullptr, at, "is {}, which the Draco stream does not have", id.get<uint32_t>());
+        Accessor accessor = parsed.accessors[primitive["attributes"][name].get<uint32_t>()];
+        demand(accessor.count == mesh->num_points(), at,
+               "has {} vertices in its accessor, but the Draco stream has {}", accessor.count,
+               mesh->num_points());
+        out.owned.push_back(stored_values(*mesh, *attribute, accessor, at));
+        accessor.bytes = out.owned.back();
+        accessor.stride = accessor.element_size();
+        accessor.sparse = {};
+        out.attributes.emplace(name, accessor);
+    }
+    return out;
+}
+
+}  // namespace coppice::gltf

@@ -1,0 +1,23 @@
+// KHR_draco_mesh_compression: a primitive as a Draco bitstream.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/format/gltf/parsed.h"
+
+namespace coppice::gltf {
+
+struct DracoPrimitive {
+    uint64_t vertex_count = 0;
+    std::vector<uint32_t> triangles;             // 3 vertices each, in range
+    std::map<std::string, Accessor> attributes;  // windows into owned; only those that the bitstream holds
+    std::vector<Bytes> owned;
+};
+
+// primitive: has the extension. Throws asset_malformed, asset_too_large.
+DracoPrimitive decode_draco(const Parsed& parsed, const Json& primitive, uint64_t triangle_limit,
+                            const std::string& where);
+
+}  // namespace coppice::gltf

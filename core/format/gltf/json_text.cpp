@@ -1,0 +1,88 @@
+#include "core/format/gltf/json_text.h"
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "core/base/error.h"
+
+namespace coppice::gltf {
+
+namespace {
+
+std::string line_and_column(std::string_view text, size_t offset) {
+    const std::string_view before = text.substr(0, std::min(offset, text.size()));
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const size_t line_begin = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
+    return fmt::format("line {} column {}", line, before.size() - line_begin + 1);
+}
+
+// The nesting depth is counted before parsing: the parser itself is iterative, but whoever copies or prints
+// the tree later recurses.
+void check_depth(std::string_view text, uint32_t limit) {
+    uint32_t depth = 0;
+    bool in_string = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string) {
+            if (c == '\\') ++i;
+            in_string = c != '"';
+        } else if (c == '"') {
+            in_string = true;
+        } else if (c == '{' || c == '[') {
+            require(++depth <= limit, ErrorCode::asset_malformed, line_and_column(text, i),
+                    "the JSON is nested deeper than {} levels (limit json_depth)", limit);
+        } else if ((c == '}' || c == ']') && depth > 0) {
+            --depth;
+        }
+    }
+}
+
+// Sees every key as it is parsed and refuses the second of a kind in one object.
+class DuplicateKeys {
+  public:
+    bool operator()(int, Json::parse_event_t event, Json& parsed) {
+        if (event == Json::parse_event_t::object_start) {
+            keys_.emplace_back();
+        } else if (event == Json::parse_event_t::object_end) {
+            keys_.pop_back();
+        } else if (event == Json::parse_event_t::key) {
+            const auto& key = parsed.get_ref<const std::string&>();
+            require(keys_.back().insert(key).second, ErrorCode::asset_malformed, "",
+                    "the JSON has the key '{}' twice in one object", key.substr(0, 100));
+        }
+        return true;
+    }
+
+  private:
+    std::vector<std::set<std::string>> keys_;
+};
+
+}  // namespace
+
+Json parse_json(ByteView bytes, const ReadLimits& limits) {
+    const std::string_view text = as_text(bytes);
+    require(text.size() <= limits.json_bytes, ErrorCode::asset_too_large, "",
+            "the JSON has {} bytes; at most {} are read (limit json_bytes)", text.size(), limits.json_bytes);
+    require(!text.starts_with("\xEF\xBB\xBF"), ErrorCode::asset_malformed, "line 1 column 1",
+            "the JSON begins with a byte order mark, which glTF forbids");
+    check_depth(text, limits.json_depth);
+    try {
+        return Json::parse(text.begin(), text.end(), DuplicateKeys());
+    } catch (const Json::parse_error& error) {
+        const std::string_view message = error.what();
+        const size_t colon = message.rfind("; expected");
+        fail(ErrorCode::asset_malformed, line_and_column(text, error.byte == 0 ? 0 : error.byte - 1),
+             fmt::format("the JSON cannot be parsed{}", colon == std::string_view::npos
+                                                            ? std::string()
+                                                            : std::string(message.substr(colon))));
+    } catch (const Json::exception&) {
+        fail(ErrorCode::asset_malformed, "", "the JSON holds a number that is out of range");
+    }
+}
+
+std::string print_json(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace coppice::gltf

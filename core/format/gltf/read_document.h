@@ -1,0 +1,14 @@
+// What of a read file goes along for the writer.
+#pragma once
+
+#include <memory>
+
+#include "core/format/gltf/document.h"
+#include "core/format/gltf/parsed.h"
+
+namespace coppice::gltf {
+
+// Takes parsed.json. Copies the values that are passed through, with their repairs.
+std::shared_ptr<GltfDocument> make_document(Parsed& parsed);
+
+}  // namespace coppice::gltf

@@ -1,0 +1,243 @@
+#include "core/format/gltf/write_document.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/base/error.h"
+#include "core/format/gltf/document.h"
+#include "core/format/gltf/fresh_document.h"
+#include "core/format/gltf/glb.h"
+#include "core/format/gltf/gltf.h"
+#include "core/format/gltf/parsed.h"
+#include "core/format/gltf/write_buffer.h"
+#include "core/format/gltf/write_images.h"
+#include "core/format/gltf/write_mesh.h"
+#include "core/format/gltf/write_nodes.h"
+#include "core/scene/expand.h"
+
+namespace coppice::gltf {
+
+namespace {
+
+bool declares(const Json& document, const char* list_name, std::string_view name) {
+    const Json& names = list(document, list_name);
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void set_declared(Json& document, const char* list_name, const char* name, bool is_declared) {
+    Json names = list(document, list_name);
+    names.erase(std::remove(names.begin(), names.end(), Json(name)), names.end());
+    if (is_declared) names.push_back(name);
+    if (names.empty())
+        document.erase(list_name);
+    else
+        document[list_name] = std::move(names);
+}
+
+class DocumentWriter {
+  public:
+    DocumentWriter(const Scene& scene, const WriteOptions& options, const Watch& watch)
+        : scene_(scene),
+          options_(options),
+          watch_(watch),
+          source_(dynamic_cast<const GltfDocument*>(scene.source.get())) {}
+
+    WrittenDocument write(Images images) {
+        out_.json = source_ != nullptr ? source_->json : fresh_document(scene_);
+        if (keeps_indices())
+            buffer_.keep(list(source_->json, "accessors"), list(source_->json, "bufferViews"),
+                         source_->buffer_views);
+        write_meshes();
+        write_scene_nodes();
+        pass_animations_and_skins();
+        out_.images = write_images(scene_.images, out_.json, buffer_, images == Images::as_files);
+        out_.buffer = buffer_.finish(out_.json);
+        declare_extensions();
+        for (const std::string& name : dropped_)
+            out_.warnings.push_back(
+                {"extension.dropped",
+                 fmt::format("the extension {} described what is no longer there, and was left out", name)});
+        return std::move(out_);
+    }
+
+  private:
+    bool keeps_indices() const { return source_ != nullptr && source_->keeps_indices; }
+
+    // Index in the result of a source accessor that is passed through.
+    uint32_t pass(uint32_t index) {
+        if (keeps_indices() && !source_->repaired.contains(index)) return index;
+        const auto [known, is_new] = passed_.try_emplace(index, 0);
+        if (!is_new) return known->second;
+        const Json& from = source_->json["accessors"][index];
+        Json more = Json::object();
+        for (const char* kept : {"name", "extras", "extensions"})
+            if (from.contains(kept)) more[kept] = from[kept];
+        const bool bounds = from.contains("min") || from.contains("max");
+        if (source_->accessors.contains(index))
+            known->second = buffer_.add(passed_accessor(index), kind_, bounds, more);
+        else
+            known->second = buffer_.add_without_data(from);
+        return known->second;
+    }
+
+    Accessor passed_accessor(uint32_t index) const {
+        const Json& json = source_->json["accessors"][index];
+        Accessor accessor;
+        const std::string type = text_at(json, "type");
+        const auto digit = static_cast<uint32_t>(type.back() - '0');
+        accessor.rows = type == "SCALAR" ? 1 : digit;
+        accessor.columns = type.starts_with("MAT") ? digit : 1;
+        accessor.storage = {static_cast<ComponentType>(unsigned_at(json, "componentType")),
+                            json.value("normalized", false)};
+        accessor.count = unsigned_at(json, "count");
+        accessor.bytes = source_->accessors.at(index);
+        accessor.stride = accessor.tight_stride();
+        return accessor;
+    }
+
+    std::function<uint32_t(uint32_t)> passer(BufferWriter::Kind kind) {
+        return [this, kind](uint32_t index) {
+            kind_ = kind;
+            return pass(index);
+        };
+    }
+
+    void write_meshes() {
+        MeshContext context{
+            buffer_, declares(out_.json, "extensionsRequired", "KHR_mesh_quantization"), {}, dropped_};
+        // Points and lines: an accessor is either indices or vertices, never both.
+        context.pass_accessor = [this](uint32_t index) {
+            kind_ = is_index_accessor(index) ? BufferWriter::Kind::indices : BufferWriter::Kind::vertices;
+            return pass(index);
+        };
+        out_.json.erase("meshes");
+        for (const Mesh& mesh : scene_.meshes) {
+            watch_.check();
+            const Json* from = nullptr;
+            if (source_ != nullptr && mesh.source_mesh &&
+                *mesh.source_mesh < list(source_->json, "meshes").size())
+                from = &source_->json["meshes"][*mesh.source_mesh];
+            const uint64_t before = buffer_.size();
+            out_.json["meshes"].push_back(write_mesh(mesh, from, context));
+            out_.mesh_bytes.push_back(buffer_.size() - before);
+        }
+    }
+
+    bool is_index_accessor(uint32_t index) {
+        if (!index_accessors_) {
+            index_accessors_.emplace();
+            for (const Json& mesh : list(source_->json, "meshes"))
+                for (const Json& primitive : mesh["primitives"])
+                    if (const auto indices = index_at(primitive, "indices"))
+                        index_accessors_->insert(*indices);
+        }
+        return index_accessors_->contains(index);
+    }
+
+    void write_scene_nodes() {
+        NodeContext context{source_, buffer_, passer(BufferWriter::Kind::data), dropped_};
+        write_nodes(scene_, out_.json, context);
+        uses_instancing_ = context.uses_instancing;
+    }
+
+    void pass_animations_and_skins() {
+        if (source_ == nullptr) return;
+        const auto pass_data = passer(BufferWriter::Kind::data);
+        const auto pass_bind = passer(BufferWriter::Kind::inverse_bind);
+        if (out_.json.contains("animations"))
+            for (Json& animation : out_.json["animations"])
+                for (Json& sampler : animation["samplers"])
+                    for (const char* end : {"input", "output"})
+                        sampler[end] = pass_data(sampler[end].get<uint32_t>());
+        if (out_.json.contains("skins"))
+            for (Json& skin : out_.json["skins"])
+                if (skin.contains("inverseBindMatrices"))
+                    skin["inverseBindMatrices"] = pass_bind(skin["inverseBindMatrices"].get<uint32_t>());
+    }
+
+    void declare_extensions() {
+        for (const char* decoded : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"})
+            for (const char* names : {"extensionsUsed", "extensionsRequired"})
+                set_declared(out_.json, names, decoded, false);
+        for (const std::string& name : dropped_)
+            for (const char* names : {"extensionsUsed", "extensionsRequired"})
+                set_declared(out_.json, names, name.c_str(), false);
+        constexpr const char* instancing = "EXT_mesh_gpu_instancing";
+        const bool was_used = declares(out_.json, "extensionsUsed", instancing);
+        const bool was_required = declares(out_.json, "extensionsRequired", instancing);
+        // Without the extension a viewer would draw one instance of many: so it is required, unless the
+        // source had it otherwise.
+        set_declared(out_.json, "extensionsRequired", instancing,
+                     uses_instancing_ && (was_required || !was_used));
+        set_declared(out_.json, "extensionsUsed", instancing, uses_instancing_);
+    }
+
+    const Scene& scene_;
+    const WriteOptions& options_;
+    const Watch& watch_;
+    const GltfDocument* source_;
+    WrittenDocument out_;
+    BufferWriter buffer_;
+    BufferWriter::Kind kind_ = BufferWriter::Kind::data;  // of the accessor that is passed next
+    std::map<uint32_t, uint32_t> passed_;
+    std::optional<std::set<uint32_t>> index_accessors_;
+    std::set<std::string> dropped_;
+    bool uses_instancing_ = false;
+};
+
+// Each instance of a batch as a child node.
+Scene batches_as_nodes(const Scene& scene) {
+    Scene out = scene;
+    for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
+        if (scene.nodes[i].batch.empty()) continue;
+        for (const Transform& transform : scene.nodes[i].batch) {
+            Node child;
+            child.parent = i;
+            child.local = transform;
+            child.mesh = scene.nodes[i].mesh;
+            out.nodes[i].children.push_back(static_cast<uint32_t>(out.nodes.size()));
+            out.nodes.push_back(std::move(child));
+        }
+        out.nodes[i].mesh.reset();
+        out.nodes[i].batch.clear();
+    }
+    return out;
+}
+
+}  // namespace
+
+WrittenDocument write_document(const Scene& scene, const WriteOptions& options, Images images,
+                               const Watch& watch) {
+    require(options.instancing != Instancing::gpu, ErrorCode::option_conflict, "instancing",
+            "instancing=gpu is not available yet; it may be auto, nodes or expand");
+    if (options.instancing == Instancing::expand)
+        return DocumentWriter(expand_meshes(scene), options, watch).write(images);
+    if (options.instancing == Instancing::nodes)
+        return DocumentWriter(batches_as_nodes(scene), options, watch).write(images);
+    return DocumentWriter(scene, options, watch).write(images);
+}
+
+}  // namespace coppice::gltf
+
+namespace coppice {
+
+WrittenAsset write_glb(const Scene& scene, const WriteOptions& options, const Watch& watch) {
+    gltf::WrittenDocument written = gltf::write_document(scene, options, gltf::Images::embedded, watch);
+    return {gltf::print_glb(gltf::print_json(written.json), written.buffer), "model/gltf-binary", "glb",
+            std::move(written.mesh_bytes), std::move(written.warnings)};
+}
+
+GltfFiles write_gltf(const Scene& scene, const WriteOptions& options, const Watch& watch) {
+    gltf::WrittenDocument written = gltf::write_document(scene, options, gltf::Images::as_files, watch);
+    GltfFiles out;
+    out.mesh_bytes = std::move(written.mesh_bytes);
+    out.warnings = std::move(written.warnings);
+    const std::string binary = options.base_name + ".bin";
+    if (!written.buffer.empty()) written.json["buffers"][0]["uri"] = binary;
+    out.files.push_back({options.base_name + ".gltf", to_bytes(gltf::print_json(written.json))});
+    if (!written.buffer.empty()) out.files.push_back({binary, std::move(written.buffer)});
+    for (NamedFile& image : written.images) out.files.push_back(std::move(image));
+    return out;
+}
+
+}  // namespace coppice

@@ -1,0 +1,252 @@
+#include "core/format/gltf/write_mesh.h"
+
+#include <algorithm>
+
+#include "core/format/gltf/legal_values.h"
+#include "core/format/gltf/parsed.h"
+#include "core/format/gltf/read_primitive.h"
+#include "core/format/gltf/semantics.h"
+
+namespace coppice::gltf {
+
+namespace {
+
+constexpr uint32_t unused = UINT32_MAX;
+
+// Extensions of a primitive that describe its triangles as they were, and mean nothing for others.
+constexpr const char* geometry_extensions[] = {"FB_ngon_encoding", "CESIUM_primitive_outline"};
+
+// The wedges of one slot, in the order in which its triangles use them.
+struct SlotGeometry {
+    std::vector<uint32_t> wedges;
+    std::vector<uint32_t> indices;
+};
+
+std::vector<SlotGeometry> slot_geometries(const Mesh& mesh) {
+    std::vector<SlotGeometry> out(mesh.slots.size());
+    std::vector<std::vector<uint32_t>> triangles(mesh.slots.size());
+    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) triangles[mesh.triangle_slot[t]].push_back(t);
+    std::vector<uint32_t> index_of(mesh.wedge_count());
+    std::vector<uint32_t> owner(mesh.wedge_count(), unused);  // the slot that index_of is for
+    for (uint32_t slot = 0; slot < out.size(); ++slot)
+        for (const uint32_t t : triangles[slot])
+            for (size_t c = 0; c < 3; ++c) {
+                const uint32_t wedge = mesh.triangles[3 * size_t{t} + c];
+                if (owner[wedge] != slot) {
+                    owner[wedge] = slot;
+                    index_of[wedge] = static_cast<uint32_t>(out[slot].wedges.size());
+                    out[slot].wedges.push_back(wedge);
+                }
+                out[slot].indices.push_back(index_of[wedge]);
+            }
+    return out;
+}
+
+// Owns the bytes that an accessor is a window into.
+struct Values {
+    Bytes bytes;
+    Accessor accessor;
+};
+
+template <typename ValueAt>
+Values encode_values(uint32_t components, Storage storage, uint64_t count, const ValueAt& value) {
+    Values out;
+    out.accessor.storage = storage;
+    out.accessor.count = count;
+    if (components == 9 || components == 16) out.accessor.columns = components == 9 ? 3 : 4;
+    out.accessor.rows = components / out.accessor.columns;
+    out.bytes.reserve(count * out.accessor.tight_stride());
+    for (uint64_t i = 0; i < count; ++i)
+        for (uint32_t c = 0; c < components; ++c) {
+            append_component(out.bytes, encoded(value(i, c), storage), storage.type);
+            const bool ends_column = out.accessor.columns > 1 && (c + 1) % out.accessor.rows == 0;
+            while (ends_column && out.bytes.size() % 4 != 0) out.bytes.push_back(std::byte{0});
+        }
+    out.accessor.bytes = out.bytes;
+    out.accessor.stride = out.accessor.tight_stride();
+    return out;
+}
+
+// What it was stored as, where glTF allows that here; floats otherwise.
+Storage allowed_storage(std::string_view name, uint32_t components, Storage storage, bool is_delta,
+                        bool quantization) {
+    const Semantic semantic = parse_attribute_name(name).semantic;
+    Accessor probe;
+    probe.rows = components;
+    probe.storage = storage;
+    if (components <= 4 && is_valid_format(semantic, probe, is_delta, quantization)) return storage;
+    if (semantic == Semantic::joints) return {ComponentType::uint16, false};
+    return {};
+}
+
+class PrimitiveWriter {
+  public:
+    PrimitiveWriter(const Mesh& mesh, MeshContext& context) : mesh_(mesh), context_(context) {}
+
+    // source: the primitive's object in the source, or an empty object.
+    Json write(uint32_t slot, const SlotGeometry& geometry, Json source) {
+        Json primitive = std::move(source);
+        for (const char* replaced : {"attributes", "indices", "targets", "mode", "material"})
+            primitive.erase(replaced);
+        drop_extensions(primitive);
+        if (mesh_.slots[slot].material) primitive["material"] = *mesh_.slots[slot].material;
+        primitive["attributes"]["POSITION"] = positions(geometry);
+        for (size_t a = 0; a < mesh_.attributes.size(); ++a) {
+            const Attribute& attribute = mesh_.attributes[a];
+            if (!has(slot, a) || !is_storable(attribute)) continue;
+            primitive["attributes"][attribute.name] = values(attribute, geometry, false);
+        }
+        for (const MorphTarget& target : mesh_.morph_targets)
+            primitive["targets"].push_back(deltas(target, slot, geometry));
+        primitive["indices"] = indices(geometry);
+        return primitive;
+    }
+
+  private:
+    bool has(uint32_t slot, size_t attribute) const {
+        const auto& flags = mesh_.slots[slot].has_attribute;
+        return flags.empty() || flags[attribute];
+    }
+
+    static bool is_storable(const Attribute& attribute) {
+        const uint32_t n = attribute.components;
+        return parse_attribute_name(attribute.name).semantic != Semantic::invalid &&
+               ((n >= 1 && n <= 4) || n == 9 || n == 16);
+    }
+
+    void drop_extensions(Json& primitive) {
+        if (!primitive.contains("extensions")) return;
+        Json& extensions = primitive["extensions"];
+        extensions.erase("KHR_draco_mesh_compression");
+        for (const char* name : geometry_extensions)
+            if (extensions.erase(name) > 0) context_.dropped.insert(name);
+        if (extensions.empty()) primitive.erase("extensions");
+    }
+
+    uint32_t positions(const SlotGeometry& geometry) {
+        const Storage storage =
+            allowed_storage("POSITION", 3, mesh_.position_storage, false, context_.quantization);
+        const Values encoded_positions =
+            encode_values(3, storage, geometry.wedges.size(), [&](uint64_t i, uint32_t c) -> double {
+                const Vec3f& p = mesh_.positions[mesh_.wedge_vertex[geometry.wedges[i]]];
+                return c == 0 ? p.x : c == 1 ? p.y : p.z;
+            });
+        return context_.buffer.add(encoded_positions.accessor, BufferWriter::Kind::vertices, true);
+    }
+
+    uint32_t values(const Attribute& attribute, const SlotGeometry& geometry, bool is_delta) {
+        const Storage storage = allowed_storage(attribute.name, attribute.components, attribute.storage,
+                                                is_delta, context_.quantization);
+        const Values encoded_values = encode_values(
+            attribute.components, storage, geometry.wedges.size(), [&](uint64_t i, uint32_t c) -> double {
+                return attribute.values[size_t{geometry.wedges[i]} * attribute.components + c];
+            });
+        return context_.buffer.add(encoded_values.accessor, BufferWriter::Kind::vertices,
+                                   is_delta && attribute.name == "POSITION");
+    }
+
+    Json deltas(const MorphTarget& target, uint32_t slot, const SlotGeometry& geometry) {
+        Json out = Json::object();
+        for (const Attribute& delta : target.deltas) {
+            const auto base = std::find_if(mesh_.attributes.begin(), mesh_.attributes.end(),
+                                           [&](const Attribute& a) { return a.name == delta.name; });
+            const bool has_base =
+                delta.name == "POSITION" || (base != mesh_.attributes.end() &&
+                                             has(slot, static_cast<size_t>(base - mesh_.attributes.begin())));
+            if (has_base && is_storable(delta)) out[delta.name] = values(delta, geometry, true);
+        }
+        // A target without any delta is not allowed; one of zeros is.
+        if (out.empty()) {
+            Attribute zeros{"POSITION", 3, {}, std::vector<float>(3 * mesh_.wedge_count())};
+            out["POSITION"] = values(zeros, geometry, true);
+        }
+        return out;
+    }
+
+    uint32_t indices(const SlotGeometry& geometry) {
+        // 65535 restarts primitives, so it is no index.
+        const bool is_short = geometry.wedges.size() <= 65535;
+        const Values encoded_indices = encode_values(
+            1, {is_short ? ComponentType::uint16 : ComponentType::uint32, false}, geometry.indices.size(),
+            [&](uint64_t i, uint32_t) -> double { return geometry.indices[i]; });
+        return context_.buffer.add(encoded_indices.accessor, BufferWriter::Kind::indices, false);
+    }
+
+    const Mesh& mesh_;
+    MeshContext& context_;
+};
+
+// Points, lines, and what has no positions: as it was, with accessors of the result.
+Json pass_primitive(Json primitive, const MeshContext& context) {
+    for (auto& [name, index] : primitive["attributes"].items())
+        index = context.pass_accessor(index.get<uint32_t>());
+    if (primitive.contains("targets"))
+        for (Json& target : primitive["targets"])
+            for (auto& [name, index] : target.items()) index = context.pass_accessor(index.get<uint32_t>());
+    if (primitive.contains("indices"))
+        primitive["indices"] = context.pass_accessor(primitive["indices"].get<uint32_t>());
+    return primitive;
+}
+
+// What stands in for a mesh of which no triangle is left, so that nodes, materials and animations keep what
+// they name.
+Mesh placeholder(const Mesh& mesh) {
+    Mesh out;
+    out.slots =
+        mesh.slots.empty() ? std::vector<MaterialSlot>(1) : std::vector<MaterialSlot>(1, mesh.slots.front());
+    out.slots[0].has_attribute.clear();
+    out.positions = {mesh.positions.empty() ? Vec3f{} : mesh.positions.front()};
+    out.wedge_vertex = {0};
+    for (const Attribute& attribute : mesh.attributes) {
+        Attribute one{attribute.name, attribute.components, attribute.storage,
+                      std::vector<float>(attribute.components, 0.0F)};
+        if (attribute.name == "WEIGHTS_0") one.values[0] = 1;
+        if (attribute.name == "NORMAL") one.values[2] = 1;
+        if (attribute.name == "TANGENT") one.values = {1, 0, 0, 1};
+        out.attributes.push_back(std::move(one));
+    }
+    for (const MorphTarget& target : mesh.morph_targets) {
+        out.morph_targets.emplace_back();
+        for (const Attribute& delta : target.deltas)
+            out.morph_targets.back().deltas.push_back(
+                {delta.name, delta.components, delta.storage, std::vector<float>(delta.components, 0.0F)});
+    }
+    out.triangles = {0, 0, 0};
+    out.triangle_slot = {0};
+    return out;
+}
+
+Json source_primitive(const Json* source, const MaterialSlot& slot) {
+    if (source == nullptr || !slot.source_primitive ||
+        *slot.source_primitive >= (*source)["primitives"].size())
+        return Json::object();
+    return (*source)["primitives"][*slot.source_primitive];
+}
+
+}  // namespace
+
+Json write_mesh(const Mesh& mesh, const Json* source, MeshContext& context) {
+    Json json = source != nullptr ? *source : Json::object();
+    json.erase("primitives");
+    if (!mesh.name.empty()) json["name"] = mesh.name;
+    Mesh legal = mesh;
+    make_legal(legal);
+    Json primitives = Json::array();
+    const auto write_slots = [&](const Mesh& of) {
+        PrimitiveWriter writer(of, context);
+        const std::vector<SlotGeometry> geometries = slot_geometries(of);
+        for (uint32_t slot = 0; slot < geometries.size(); ++slot)
+            if (!geometries[slot].indices.empty())
+                primitives.push_back(
+                    writer.write(slot, geometries[slot], source_primitive(source, of.slots[slot])));
+    };
+    write_slots(legal);
+    if (source != nullptr)
+        for (const Json& primitive : (*source)["primitives"])
+            if (!is_triangles(primitive)) primitives.push_back(pass_primitive(primitive, context));
+    if (primitives.empty()) write_slots(placeholder(mesh));
+    json["primitives"] = std::move(primitives);
+    return json;
+}
+
+}  // namespace coppice::gltf
