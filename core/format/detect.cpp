@@ -22,6 +22,7 @@ constexpr std::string_view what_is_read =
     "glTF 2.0 (glb, gltf), OBJ (obj, iobj), PLY and STL are read, or a zip of one with its resources";
 constexpr size_t sniffed_bytes = 64 << 10;
 constexpr size_t sniffed_lines = 400;
+constexpr size_t solid_sniffed = 1024;
 
 struct Signature {
     std::string_view begins;
@@ -58,6 +59,12 @@ constexpr std::array obj_words = {
     "v"sv,      "vt"sv,     "vn"sv,    "f"sv,        "fo"sv,       "o"sv,         "g"sv,   "s"sv,
     "l"sv,      "p"sv,      "vp"sv,    "vw"sv,       "usemtl"sv,   "mtllib"sv,    "lod"sv, "cstype"sv,
     "usemap"sv, "maplib"sv, "bevel"sv, "c_interp"sv, "d_interp"sv, "shadow_obj"sv};
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return out;
+}
 
 bool contains(std::string_view text, std::string_view part) {
     return text.find(part) != text.npos;
@@ -121,17 +128,12 @@ Recognised recognise_text(std::string_view text) {
     if (begin.starts_with('{')) return json(text);
     if (is_iobj(head)) return {.format = Format::iobj};
     if (const std::string what = unsupported_text(begin); !what.empty()) return {.unsupported = what};
-    if (begin.starts_with("solid") && (contains(begin, "facet") || contains(begin, "endsolid"))) {
+    const std::string solid = lower(begin.substr(0, solid_sniffed));
+    if (solid.starts_with("solid") && (contains(solid, "facet") || contains(solid, "endsolid"))) {
         return {.format = Format::stl};
     }
     if (looks_like_obj(head)) return {.format = Format::obj};
     return {};
-}
-
-std::string lower(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
 }
 
 // Every iobj is an OBJ too; a GLB under the name of a gltf is not.

@@ -76,6 +76,15 @@ class ObjParser {
         file_.instances.push_back(parse_instance_directive(Line(line.text(), line.number())));
     }
 
+    // A check of a limit that costs nothing while it holds.
+    static void require_limit(bool holds, const Line& line, std::string_view what, std::string_view limit,
+                              uint64_t value) {
+        if (!holds) {
+            fail(ErrorCode::asset_too_large, line.where(),
+                 fmt::format("{} the limit {} of {}", what, limit, value));
+        }
+    }
+
     static float finite(Line& line, std::string_view what) {
         const auto value = static_cast<float>(line.number(what));
         if (!std::isfinite(value)) line.fail("{} is not a finite 32-bit number", what);
@@ -91,8 +100,8 @@ class ObjParser {
         file_.positions.push_back(position);
         if (!file_.colors.empty()) file_.colors.push_back({1, 1, 1});
         if (!line.ended()) vertex_color(line);
-        require(file_.positions.size() <= limits_.vertices, ErrorCode::asset_too_large, line.where(),
-                "more vertices than the limit vertices of {}", limits_.vertices);
+        require_limit(file_.positions.size() <= limits_.vertices, line, "more vertices than", "vertices",
+                      limits_.vertices);
     }
 
     void vertex_color(Line& line) {
@@ -124,8 +133,8 @@ class ObjParser {
             value = 0;
         }
         file_.uvs.push_back(uv);
-        require(file_.uvs.size() <= 3 * limits_.vertices, ErrorCode::asset_too_large, line.where(),
-                "more texture coordinates than three times the limit vertices of {}", limits_.vertices);
+        require_limit(file_.uvs.size() <= 3 * limits_.vertices, line,
+                      "more texture coordinates than three times", "vertices", limits_.vertices);
     }
 
     // Kept as it is: what has no direction is repaired once its triangles are known.
@@ -135,8 +144,8 @@ class ObjParser {
         n.y = static_cast<float>(line.number("the y of a normal"));
         n.z = static_cast<float>(line.number("the z of a normal"));
         file_.normals.push_back(n);
-        require(file_.normals.size() <= 3 * limits_.vertices, ErrorCode::asset_too_large, line.where(),
-                "more normals than three times the limit vertices of {}", limits_.vertices);
+        require_limit(file_.normals.size() <= 3 * limits_.vertices, line, "more normals than three times",
+                      "vertices", limits_.vertices);
     }
 
     void face(Line& line) {
@@ -145,9 +154,8 @@ class ObjParser {
         const size_t count = file_.corners.size() - first;
         if (count < 3) line.fail("a face needs at least 3 corners, this has {}", count);
         triangles_ += count - 2;
-        require(triangles_ <= limits_.triangles && file_.corners.size() < obj_none,
-                ErrorCode::asset_too_large, line.where(), "more triangles than the limit triangles of {}",
-                limits_.triangles);
+        require_limit(triangles_ <= limits_.triangles && file_.corners.size() < obj_none, line,
+                      "more triangles than", "triangles", limits_.triangles);
         if (run_ended_) begin_run();
         file_.face_ends.push_back(static_cast<uint32_t>(file_.corners.size()));
     }

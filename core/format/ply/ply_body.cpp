@@ -127,8 +127,10 @@ class BodyReader {
 
     void add_position(double px, double py, double pz) {
         const Vec3f p = to_float({px, py, pz});
-        require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), malformed, source_.where(),
-                "vertex {} is not at finite 32-bit numbers", body_.positions.size());
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+            fail(malformed, source_.where(),
+                 fmt::format("vertex {} is not at finite 32-bit numbers", body_.positions.size()));
+        }
         body_.positions.push_back(p);
     }
 
@@ -196,9 +198,10 @@ class BodyReader {
     }
 
     uint32_t index(double given) const {
-        require(given >= 0 && given < static_cast<double>(vertices_) && given == std::floor(given), malformed,
-                source_.where(), "vertex index {} is out of range: the PLY has {} vertices", given,
-                vertices_);
+        if (!(given >= 0 && given < static_cast<double>(vertices_) && given == std::floor(given))) {
+            fail(malformed, source_.where(),
+                 fmt::format("vertex index {} is out of range: the PLY has {} vertices", given, vertices_));
+        }
         return static_cast<uint32_t>(given);
     }
 
@@ -274,9 +277,10 @@ class BodyReader {
     }
 
     void require_room(size_t more) {
-        require(body_.triangles.size() / 3 + more <= limits_.triangles, ErrorCode::asset_too_large,
-                source_.where(), "the PLY has more triangles than the limit triangles of {}",
-                limits_.triangles);
+        if (body_.triangles.size() / 3 + more > limits_.triangles) {
+            fail(ErrorCode::asset_too_large, source_.where(),
+                 fmt::format("the PLY has more triangles than the limit triangles of {}", limits_.triangles));
+        }
     }
 
     // --- values
@@ -290,10 +294,13 @@ class BodyReader {
 
     void read_list(const PlyProperty& property, std::vector<double>& items) {
         const double length = source_.next(*property.list_count);
-        require(length >= 0 && length == std::floor(length) && length <= 4294967295.0 &&
-                    source_.can_hold_items(static_cast<uint64_t>(length), property.type),
-                malformed, source_.where(),
-                "a list {} of {} items is more than the rest of the file can hold", property.name, length);
+        const bool fits = length >= 0 && length == std::floor(length) && length <= 4294967295.0 &&
+                          source_.can_hold_items(static_cast<uint64_t>(length), property.type);
+        if (!fits) {
+            fail(malformed, source_.where(),
+                 fmt::format("a list {} of {} items is more than the rest of the file can hold",
+                             property.name, length));
+        }
         items.clear();
         for (auto left = static_cast<uint64_t>(length); left > 0; --left)
             items.push_back(source_.next(property.type));

@@ -6,12 +6,17 @@
 #include <bit>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/format/line_reader.h"
 #include "core/format/ply/ply_header.h"
 
 namespace coppice {
+
+[[noreturn]] inline void fail_at_end(std::string where) {
+    fail(ErrorCode::asset_malformed, std::move(where), "the PLY ends before all of its elements were there");
+}
 
 // Words of text, line ends are blanks.
 class PlyText {
@@ -38,8 +43,7 @@ class PlyText {
     void require_line() {
         while (line_.done()) {
             const bool more = lines_.next(line_);
-            require(more, ErrorCode::asset_malformed, where(),
-                    "the PLY ends before all of its elements were there");
+            if (!more) fail_at_end(where());
             line_.count_from(header_.lines);
         }
     }
@@ -57,8 +61,7 @@ class PlyBinary {
 
     double next(PlyType type) {
         const size_t size = size_of(type);
-        require(size <= bytes_.size() - at_, ErrorCode::asset_malformed, where(),
-                "the PLY ends before all of its elements were there");
+        if (size > bytes_.size() - at_) fail_at_end(where());
         const std::byte* value = bytes_.data() + at_;
         at_ += size;
         switch (type) {

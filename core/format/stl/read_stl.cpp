@@ -50,8 +50,10 @@ void read_binary(ByteView bytes, std::string name, const ReadLimits& limits, con
         for (size_t corner = 0; corner < 3; ++corner) {
             const size_t at = head_bytes + t * facet_bytes + normal_bytes + corner * 12;
             const Vec3f p = {load_f32(bytes, at), load_f32(bytes, at + 4), load_f32(bytes, at + 8)};
-            require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), malformed,
-                    fmt::format("byte {}", at), "a corner of triangle {} is not finite", t);
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+                fail(malformed, fmt::format("byte {}", at),
+                     fmt::format("a corner of triangle {} is not finite", t));
+            }
             mesh.positions.push_back(p);
         }
     }
@@ -135,7 +137,7 @@ class TextReader {
 bool is_text(ByteView bytes) {
     const std::string_view text = as_text(bytes);
     const size_t begin = text.find_first_not_of(" \t\r\n");
-    return begin != text.npos && text.substr(begin).starts_with("solid");
+    return begin != text.npos && is_word(text.substr(begin, 5), "solid");
 }
 
 std::string stem(std::string_view file_name) {
