@@ -18,6 +18,7 @@ constexpr std::string_view harmless[] = {
     "EXT_lights_ies",
     "EXT_lights_image_based",
     "EXT_mesh_features",
+    "EXT_structural_metadata",
     "EXT_texture_avif",
     "FB_ngon_encoding",
     "GOOGLE_texture_basis",
@@ -116,14 +117,8 @@ void check_asset(const Json& document) {
 std::vector<std::string> extensions_with_unknown_indices(const Json& document) {
     std::set<std::string> found;
     for_each_extension(document, [&](const std::string& name, const Json& content) {
-        if (!is_known(name) && name != "EXT_structural_metadata" && name != "EXT_feature_metadata" &&
-            holds_index(content))
-            found.insert(name);
+        if (!is_known(name) && holds_index(content)) found.insert(name);
     });
-    // Their property tables are buffer views.
-    for (const char* name : {"EXT_structural_metadata", "EXT_feature_metadata"})
-        if (const Json* metadata = extension(document, name); metadata != nullptr && holds_index(*metadata))
-            found.insert(name);
     return {found.begin(), found.end()};
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/format/gltf/checks.h"
 #include "core/format/gltf/read_primitive.h"
+#include "core/format/gltf/structural_metadata.h"
 
 namespace coppice::gltf {
 
@@ -87,6 +88,11 @@ std::shared_ptr<GltfDocument> make_document(Parsed& parsed) {
         document->accessors.emplace(index, packed(accessor, parsed.repairs[index]));
         if (parsed.repairs[index].any()) document->repaired.insert(index);
     }
+    for_each_metadata_view(parsed.json, [&](uint32_t view, const std::string& where) {
+        demand(!parsed.views[view].empty(), where, "refers to buffer view {}, which has no bytes", view);
+        document->buffer_views.emplace(view, Bytes(parsed.views[view].begin(), parsed.views[view].end()));
+        return view;
+    });
     if (document->keeps_indices)
         for (uint32_t i = 0; i < parsed.views.size(); ++i)
             document->buffer_views.emplace(i, Bytes(parsed.views[i].begin(), parsed.views[i].end()));

@@ -119,7 +119,7 @@ Bytes BufferWriter::finish(Json& document) {
     Bytes all;
     Json views = Json::array();
     for (View& view : views_) {
-        pad(all, 4);
+        pad(all, 8);  // what metadata asks for; others are content with 4
         view.json["buffer"] = 0;
         view.json.erase("byteOffset");
         if (!all.empty()) view.json["byteOffset"] = all.size();

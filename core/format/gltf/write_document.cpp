@@ -9,6 +9,7 @@
 #include "core/format/gltf/glb.h"
 #include "core/format/gltf/gltf.h"
 #include "core/format/gltf/parsed.h"
+#include "core/format/gltf/structural_metadata.h"
 #include "core/format/gltf/write_buffer.h"
 #include "core/format/gltf/write_images.h"
 #include "core/format/gltf/write_mesh.h"
@@ -50,6 +51,7 @@ class DocumentWriter {
         write_meshes();
         write_scene_nodes();
         pass_animations_and_skins();
+        pass_metadata();
         out_.images = write_images(scene_.images, out_.json, buffer_, images == Images::as_files);
         out_.buffer = buffer_.finish(out_.json);
         declare_extensions();
@@ -153,6 +155,17 @@ class DocumentWriter {
             for (Json& skin : out_.json["skins"])
                 if (skin.contains("inverseBindMatrices"))
                     skin["inverseBindMatrices"] = pass_bind(skin["inverseBindMatrices"].get<uint32_t>());
+    }
+
+    void pass_metadata() {
+        if (source_ == nullptr || keeps_indices()) return;
+        // The views of the source are still listed, which is what the indices are checked against.
+        std::map<uint32_t, uint32_t> views;
+        for_each_metadata_view(out_.json, [&](uint32_t view, const std::string&) {
+            const auto [known, is_new] = views.try_emplace(view, 0);
+            if (is_new) known->second = buffer_.add_view(source_->buffer_views.at(view));
+            return known->second;
+        });
     }
 
     void declare_extensions() {

@@ -162,6 +162,33 @@ TEST(GltfWrite, uses_short_indices_as_far_as_they_reach) {
     EXPECT_EQ(written_json(one_instance({}))["accessors"][1]["componentType"], 5123);
 }
 
+TEST(GltfWrite, keeps_every_accessor_where_an_unknown_extension_may_count_on_it) {
+    GltfBuilder builder = square();
+    builder.json["extensionsUsed"] = {"X_indices"};
+    builder.json["nodes"][0]["extensions"]["X_indices"] = {{"accessor", 1}};
+    const Scene scene = test::read(builder);
+    EXPECT_THAT(test::warning_codes(scene), ::testing::ElementsAre("extension.unknown"));
+    const Json out = written_json(scene);
+    for (size_t i = 0; i < 2; ++i)
+        EXPECT_EQ(out["accessors"][i]["count"], builder.json["accessors"][i]["count"]);
+    EXPECT_EQ(out["nodes"][0]["extensions"], builder.json["nodes"][0]["extensions"]);
+}
+
+TEST(GltfWrite, takes_the_buffer_views_of_metadata_along) {
+    GltfBuilder builder = square();
+    builder.add<uint32_t>({7, 8}, 5125, "SCALAR", 1);
+    builder.json["accessors"].erase(2);
+    builder.json["extensionsUsed"] = {"EXT_structural_metadata"};
+    builder.json["extensions"]["EXT_structural_metadata"]["propertyTables"] = {
+        {{"class", "a"}, {"count", 2}, {"properties", {{"id", {{"values", 2}}}}}}};
+    const Json out = written_json(test::read(builder));
+    const Json& property =
+        out["extensions"]["EXT_structural_metadata"]["propertyTables"][0]["properties"]["id"];
+    const Json& view = out["bufferViews"][property["values"].get<size_t>()];
+    EXPECT_EQ(view["byteLength"], 8);
+    EXPECT_EQ(view["byteOffset"].get<size_t>() % 8, 0U);
+}
+
 TEST(GltfWrite, refuses_what_is_not_there_yet) {
     EXPECT_THAT(test::error_of([] { write_glb(one_instance({}), {.instancing = Instancing::gpu}, {}); }),
                 ::testing::StartsWith("option.conflict instancing"));
