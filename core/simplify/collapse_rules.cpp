@@ -44,11 +44,11 @@ CollapseRules::CollapseRules(const CollapseMesh& mesh, std::vector<VertexKind> k
 bool CollapseRules::kinds_allow(uint32_t removed, uint32_t kept, const Neighbours& around) const {
     if (mesh_.valence(removed) > largest_removable_valence) return false;
     if (!allows(kinds_[removed], kinds_[kept])) return false;
-    const uint32_t uses = around.uses(kept);
     switch (kinds_[removed]) {
         case VertexKind::border:
-            return uses == 1;
+            return around.uses(kept) == 1;
         case VertexKind::complex: {
+            const uint32_t uses = around.uses(kept);
             // Either all edges here are alike (say, two sheets back to back), or the edge is one of the two
             // of a line that differs from the rest (the rim of such sheets, the foot of a fin).
             const auto alike = std::count_if(around.all().begin(), around.all().end(),
@@ -72,8 +72,8 @@ bool CollapseRules::keeps_topology(uint32_t removed, uint32_t kept) {
     for (uint32_t c = mesh_.first_corner(removed); c != no_index; c = mesh_.corner_after(c)) {
         const uint32_t a = mesh_.corner_vertex(CollapseMesh::next_corner(c));
         const uint32_t b = mesh_.corner_vertex(CollapseMesh::previous_corner(c));
-        if (a == kept) ++shared_[around_removed_.place(b)];
-        if (b == kept) ++shared_[around_removed_.place(a)];
+        if (a == kept) ++shared_[around_removed_.find(b)];
+        if (b == kept) ++shared_[around_removed_.find(a)];
     }
     const bool gather_kept = mesh_.valence(kept) <= long_ring;
     if (gather_kept) around_kept_.gather(mesh_, kept);
@@ -107,7 +107,7 @@ bool CollapseRules::duplicates(uint32_t removed, uint32_t kept) {
         uint32_t a = mesh_.corner_vertex(CollapseMesh::next_corner(c));
         uint32_t b = mesh_.corner_vertex(CollapseMesh::previous_corner(c));
         if (a == kept || b == kept) continue;
-        if (shared_[around_removed_.place(a)] == 0 || shared_[around_removed_.place(b)] == 0) continue;
+        if (shared_[around_removed_.find(a)] == 0 || shared_[around_removed_.find(b)] == 0) continue;
         if (mesh_.valence(b) < mesh_.valence(a)) std::swap(a, b);
         for (uint32_t d = mesh_.first_corner(a); d != no_index; d = mesh_.corner_after(d)) {
             const uint32_t e = mesh_.corner_vertex(CollapseMesh::next_corner(d));

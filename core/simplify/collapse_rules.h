@@ -26,8 +26,13 @@ class CollapseRules {
   public:
     CollapseRules(const CollapseMesh& mesh, std::vector<VertexKind> kinds);
 
-    // Whether kinds allow the collapse along this edge. `around` holds the neighbours of `removed`.
+    // Whether kinds allow the collapse along this edge. `around` holds the neighbours of `removed`, if
+    // reads_neighbours(removed).
     bool kinds_allow(uint32_t removed, uint32_t kept, const Neighbours& around) const;
+
+    bool reads_neighbours(uint32_t removed) const {
+        return kinds_[removed] == VertexKind::border || kinds_[removed] == VertexKind::complex;
+    }
 
     // Link condition (Dey and others 1999), no duplicate triangle, no edge with more triangles than before
     // where that makes it non-manifold, nothing dropped; no triangle turned by more than about 75 degrees,

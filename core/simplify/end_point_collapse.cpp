@@ -14,6 +14,12 @@ double way(uint32_t first, uint32_t now, std::optional<uint64_t> target) {
     return static_cast<double>(first - now) / static_cast<double>(first - *target);
 }
 
+Features features_for(const CollapseMesh& mesh, const EndPointOptions& options, const Watch& watch) {
+    Features features = find_features(mesh, watch);
+    if (options.lock_sharp_borders) lock_sharp_borders(mesh, features);
+    return features;
+}
+
 }  // namespace
 
 EndPointCollapse::EndPointCollapse(const Mesh& source, const Target& target, const EndPointOptions& options,
@@ -22,7 +28,7 @@ EndPointCollapse::EndPointCollapse(const Mesh& source, const Target& target, con
       target_(target),
       max_geometric_error_(options.max_geometric_error),
       mesh_(source),
-      features_(find_features(mesh_, watch)),
+      features_(features_for(mesh_, options, watch)),
       clouds_(mesh_, source, options.scales),
       errors_(mesh_, features_.edges, clouds_, options.weights),
       rules_(mesh_, features_.kinds),
@@ -61,7 +67,7 @@ std::optional<double> EndPointCollapse::cost_around(uint32_t removed, uint32_t k
 }
 
 std::optional<double> EndPointCollapse::cost(uint32_t removed, uint32_t kept) {
-    around_.gather(mesh_, removed);
+    if (rules_.reads_neighbours(removed)) around_.gather(mesh_, removed);
     return cost_around(removed, kept);
 }
 

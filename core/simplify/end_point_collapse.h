@@ -26,6 +26,7 @@ namespace coppice {
 struct EndPointOptions {
     PlaneWeights weights = PlaneWeights::area;
     AttributeScales scales = {};
+    bool lock_sharp_borders = false;
     std::optional<double> max_geometric_error = {};  // Gamma, mesh units: dearer pairs are no candidates
 };
 

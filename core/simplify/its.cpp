@@ -72,6 +72,7 @@ Simplified simplify(const Mesh& source, std::span<const Transform>, const Target
     const EndPointOptions options = {
         .weights = faithful ? PlaneWeights::count : PlaneWeights::area,
         .scales = {values.number("normal_scale"), values.number("uv_scale"), values.number("color_scale")},
+        .lock_sharp_borders = faithful,  // full has planes that hold them
         .max_geometric_error = values.number("max_geometric_error"),
     };
     EndPointCollapse work(source, target, options, watch);

@@ -17,20 +17,21 @@
 // Complexity: O(F log F) time for F triangles of bounded valence, about 400 bytes per triangle with normals
 // and UVs. Vertices of more than 128 triangles stay.
 //
-// Departures from the paper, and why:
-// - Both modes: the validity rules, which the paper does not have and without which its output folds; a pair
-// is an edge (it
-//   says "edge or distance < t" and then "edge and distance < t"; the algorithm listing fits the second);
-//   "valid pairs < 0" is read as "= 0". Where t has more than ten pairs and t/2 none, the ten shortest are
-//   taken, since it would swing for ever. The paper interpolates attributes at the merged vertex, although
-//   its merged vertex is always an old one: then interpolation gives that vertex' own values, and these are
-//   taken as they are.
-// - full: quadrics weighted by area and Gamma = sqrt(Q / area), which makes Gamma a length that can be added
-// to the attribute
-//   errors; planes that hold borders and seams; short edges first on flat ground.
-// - faithful: unweighted quadrics as printed, Gamma = sqrt(Q / number of planes) for the sake of units. Where
-// the pairs under
-//   t are all refused, the next longer ones are taken.
+// Departures from the paper, and why. In both modes:
+//   - The rules above, which the paper does not have and without which the surface folds.
+//   - A pair is an edge. The paper says "edge or distance < t", then "edge and distance < t"; what it says of
+//     thresholds fits the second. "Valid pairs < 0" is read as "= 0".
+//   - The paper interpolates attributes at the merged vertex, although that is always an old one, where
+//     interpolation gives the vertex' own values: these are taken as they are.
+// full:
+//   - Quadrics weighted by area and Gamma = sqrt(Q / area), so that Gamma is a length like the attribute
+//   errors.
+//   - Planes that hold borders and seams; short edges first on flat ground.
+// faithful: quadrics as printed, unweighted, but
+//   - Gamma = sqrt(Q / number of planes), for its unit.
+//   - Where t has more than ten pairs and t/2 none, the ten shortest are taken: t would swing for ever.
+//   - Where the pairs under t are all refused, the next longer ones are taken.
+//   - Its error does not see borders, so a vertex where one turns by more than 60 degrees stays.
 #pragma once
 
 #include "core/simplify/algorithm.h"

@@ -18,6 +18,7 @@ class CheapestFirst {
           watch_(watch),
           heap_(mesh_.vertex_count()),
           candidates_(mesh_.vertex_count()),
+          skipped_(mesh_.vertex_count()),
           around_(mesh_.vertex_count()) {}
 
     // A collapse can make possible what was refused two rings away. So there is another round, while they
@@ -56,15 +57,27 @@ class CheapestFirst {
         gather_ring(removed);
         if (work_.try_collapse(removed, candidate.kept) != Refusal::none) {
             queue(removed, work_.next_candidate(removed, candidate));
+            skipped_[removed] = true;
             return false;
         }
         heap_.erase(removed);
         if (!is_hub(candidate.kept)) gather_ring(candidate.kept);
         for (const uint32_t v : ring_) {
-            if (mesh_.is_live_vertex(v)) queue(v, work_.next_candidate(v));
+            if (mesh_.is_live_vertex(v) && v != candidate.kept) rank_again(v, removed, candidate.kept);
         }
         if (mesh_.is_live_vertex(candidate.kept)) queue(candidate.kept, work_.next_candidate(candidate.kept));
         return true;
+    }
+
+    // After a collapse beside this vertex: only the way to the vertex that stayed has another price now.
+    void rank_again(uint32_t vertex, uint32_t removed, uint32_t kept) {
+        const Candidate& best = candidates_[vertex];
+        if (skipped_[vertex] || !best.exists() || best.kept == kept || best.kept == removed) {
+            queue(vertex, work_.next_candidate(vertex));
+            return;
+        }
+        const std::optional<double> error = work_.cost(vertex, kept);
+        if (error && Candidate{kept, *error} < best) queue(vertex, {kept, *error});
     }
 
     // Around a vertex with very many triangles only the changed side is ranked anew at once, the rest when
@@ -75,6 +88,7 @@ class CheapestFirst {
         const std::optional<double> now = work_.cost(removed, candidate.kept);
         if (now && *now <= candidate.error) return false;
         queue(removed, now ? Candidate{candidate.kept, *now} : work_.next_candidate(removed, candidate));
+        skipped_[removed] = true;
         return true;
     }
 
@@ -85,6 +99,7 @@ class CheapestFirst {
 
     void queue(uint32_t vertex, const Candidate& candidate) {
         candidates_[vertex] = candidate;
+        skipped_[vertex] = false;
         if (candidate.exists()) {
             heap_.set(vertex, candidate.error);
         } else {
@@ -97,6 +112,7 @@ class CheapestFirst {
     const Watch& watch_;
     IndexedHeap heap_;
     std::vector<Candidate> candidates_;  // per vertex: what it is queued with
+    std::vector<bool> skipped_;          // per vertex: whether cheaper candidates were refused
     Neighbours around_;
     std::vector<uint32_t> ring_;
 };

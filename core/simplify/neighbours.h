@@ -11,11 +11,11 @@ namespace coppice {
 
 class Neighbours {
   public:
-    explicit Neighbours(uint32_t vertex_count) : stamp_(vertex_count, 0), place_(vertex_count, 0) {}
+    explicit Neighbours(uint32_t vertex_count) : marks_(vertex_count) {}
 
     // Forgets the last vertex and gathers the neighbours of this one, in the order of its corners.
     void gather(const CollapseMesh& mesh, uint32_t vertex) {
-        begin();
+        begin(mesh.valence(vertex));
         for (uint32_t c = mesh.first_corner(vertex); c != no_index; c = mesh.corner_after(c)) {
             add(mesh.corner_vertex(CollapseMesh::next_corner(c)));
             add(mesh.corner_vertex(CollapseMesh::previous_corner(c)));
@@ -23,35 +23,54 @@ class Neighbours {
     }
 
     const std::vector<uint32_t>& all() const { return list_; }
-    bool contains(uint32_t vertex) const { return stamp_[vertex] == now_; }
+    bool contains(uint32_t vertex) const { return find(vertex) != no_index; }
     // Triangles at the edge to this vertex; 0 when there is none.
-    uint32_t uses(uint32_t vertex) const { return contains(vertex) ? uses_[place_[vertex]] : 0; }
-    // Position in all(). The vertex must be contained.
-    uint32_t place(uint32_t vertex) const { return place_[vertex]; }
+    uint32_t uses(uint32_t vertex) const {
+        const uint32_t i = find(vertex);
+        return i == no_index ? 0 : uses_[i];
+    }
+    // Position in all(); no_index when it is not there.
+    uint32_t find(uint32_t vertex) const {
+        if (marked_) return marks_[vertex].round == round_ ? marks_[vertex].place : no_index;
+        for (uint32_t i = 0; i < list_.size(); ++i) {
+            if (list_[i] == vertex) return i;
+        }
+        return no_index;
+    }
 
   private:
-    void begin() {
+    // A short list is searched, which stays in the cache; vertices of a long one are marked.
+    static constexpr uint32_t long_ring = 16;
+
+    struct Mark {
+        uint32_t round = 0;
+        uint32_t place = 0;
+    };
+
+    void begin(uint32_t valence) {
         list_.clear();
         uses_.clear();
-        if (++now_ == 0) {  // after 2^32 rounds
-            stamp_.assign(stamp_.size(), 0);
-            now_ = 1;
+        marked_ = valence > long_ring;
+        if (++round_ == 0) {  // after 2^32 rounds
+            marks_.assign(marks_.size(), Mark{});
+            round_ = 1;
         }
     }
     void add(uint32_t vertex) {
-        if (stamp_[vertex] == now_) {
-            ++uses_[place_[vertex]];
+        const uint32_t i = find(vertex);
+        if (i != no_index) {
+            ++uses_[i];
             return;
         }
-        stamp_[vertex] = now_;
-        place_[vertex] = static_cast<uint32_t>(list_.size());
+        if (marked_) marks_[vertex] = {round_, static_cast<uint32_t>(list_.size())};
         list_.push_back(vertex);
         uses_.push_back(1);
     }
 
-    std::vector<uint32_t> stamp_, place_;  // per vertex of the mesh
+    std::vector<Mark> marks_;  // per vertex of the mesh
     std::vector<uint32_t> list_, uses_;
-    uint32_t now_ = 0;
+    uint32_t round_ = 0;
+    bool marked_ = false;
 };
 
 }  // namespace coppice

@@ -19,9 +19,7 @@ UnifiedError::UnifiedError(const CollapseMesh& mesh, std::span<const FeatureEdge
     : mesh_(mesh),
       clouds_(clouds),
       weights_(weights),
-      quadrics_(mesh.vertex_count()),
-      plane_weight_(mesh.vertex_count()),
-      area_(mesh.vertex_count()),
+      geometry_(mesh.vertex_count()),
       spread_(size_t{mesh.vertex_count()} * clouds.channels()) {
     add_planes(mesh);
     if (weights == PlaneWeights::area) add_constraints(features);
@@ -46,9 +44,9 @@ void UnifiedError::add_planes(const CollapseMesh& mesh) {
         const double weight = weights_ == PlaneWeights::area ? area : 1.0;
         const Quadric plane = plane_quadric(normalized(twice_area), a, weight);
         for (const uint32_t vertex : v) {
-            quadrics_[vertex] += plane;
-            plane_weight_[vertex] += weight;
-            area_[vertex] += area;
+            geometry_[vertex].quadric += plane;
+            geometry_[vertex].plane_weight += weight;
+            geometry_[vertex].area += area;
         }
     }
 }
@@ -62,23 +60,24 @@ void UnifiedError::add_constraints(std::span<const FeatureEdge> features) {
         const Vec3d edge = mesh_.position(f.b) - mesh_.position(f.a);
         const double weight = squared_length(edge) * (f.is_border ? border_weight : seam_weight);
         const Quadric plane = plane_quadric(normalized(cross(edge, normal)), mesh_.position(f.a), weight);
-        quadrics_[f.a] += plane;
-        quadrics_[f.b] += plane;
+        geometry_[f.a].quadric += plane;
+        geometry_[f.b].quadric += plane;
     }
 }
 
 UnifiedError::Cost UnifiedError::cost(uint32_t removed, uint32_t kept,
                                       const std::vector<uint32_t>& wedge_map) const {
     const Vec3d p = mesh_.position(kept);
-    const double planes = plane_weight_[removed] + plane_weight_[kept];
-    double mean_square = planes > 0 ? (quadrics_[removed] + quadrics_[kept])(p) / planes : 0;
+    const Geometry &from = geometry_[removed], &to = geometry_[kept];
+    const double planes = from.plane_weight + to.plane_weight;
+    double mean_square = planes > 0 ? (from.quadric(p) + to.quadric(p)) / planes : 0;
     if (weights_ == PlaneWeights::area) {
         mean_square += flat_preference * squared_length(mesh_.position(removed) - p);
     }
     Cost cost;
     cost.geometric = std::sqrt(mean_square);
 
-    double weight = area_[removed] + area_[kept];
+    double weight = from.area + to.area;
     double sum = weight * cost.geometric;
     const uint32_t channels = clouds_.channels();
     for (uint32_t k = 0; k < channels; ++k) {
@@ -116,9 +115,9 @@ void UnifiedError::merge(uint32_t removed, uint32_t kept, const std::vector<uint
     for (uint32_t i = 0; i < wedge_map.size(); ++i) {
         if (wedge_map[i] != no_index) clouds_.merge(first + i, wedge_map[i]);
     }
-    quadrics_[kept] += quadrics_[removed];
-    plane_weight_[kept] += plane_weight_[removed];
-    area_[kept] += area_[removed];
+    geometry_[kept].quadric += geometry_[removed].quadric;
+    geometry_[kept].plane_weight += geometry_[removed].plane_weight;
+    geometry_[kept].area += geometry_[removed].area;
 }
 
 }  // namespace coppice

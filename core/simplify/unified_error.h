@@ -43,6 +43,12 @@ class UnifiedError {
     void merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map);
 
   private:
+    // Together, since they are read together and at random.
+    struct Geometry {
+        Quadric quadric;
+        double plane_weight = 0;  // what Q is divided by
+        double area = 0;          // S
+    };
     struct Spread {
         double weight = 0;   // X0, all wedges of a vertex
         double squared = 0;  // Pi of its clouds at its own values
@@ -55,10 +61,8 @@ class UnifiedError {
     const CollapseMesh& mesh_;
     AttributeClouds& clouds_;
     PlaneWeights weights_;
-    std::vector<Quadric> quadrics_;     // per vertex
-    std::vector<double> plane_weight_;  // per vertex: what Q is divided by
-    std::vector<double> area_;          // per vertex: S
-    std::vector<Spread> spread_;        // per vertex and channel
+    std::vector<Geometry> geometry_;  // per vertex
+    std::vector<Spread> spread_;      // per vertex and channel
 };
 
 }  // namespace coppice

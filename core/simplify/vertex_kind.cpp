@@ -66,7 +66,7 @@ class Classifier {
     }
 
     uint32_t use(uint32_t near, uint32_t far) {
-        const uint32_t i = neighbours_.place(mesh_.corner_vertex(far));
+        const uint32_t i = neighbours_.find(mesh_.corner_vertex(far));
         Spoke& s = spokes_[i];
         const uint32_t near_chart = mesh_.wedge_chart(mesh_.corner_wedge(near));
         const uint32_t far_chart = mesh_.wedge_chart(mesh_.corner_wedge(far));
@@ -95,6 +95,23 @@ class Classifier {
 };
 
 }  // namespace
+
+void lock_sharp_borders(const CollapseMesh& mesh, Features& features) {
+    // Unit vectors to both neighbours: they cancel where the border is straight; at 60 degrees their sum has
+    // length 1.
+    std::vector<Vec3d> turns(mesh.vertex_count());
+    for (const FeatureEdge& f : features.edges) {
+        if (!f.is_border) continue;
+        const Vec3d along = normalized(mesh.position(f.b) - mesh.position(f.a));
+        turns[f.a] = turns[f.a] + along;
+        turns[f.b] = turns[f.b] - along;
+    }
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        if (features.kinds[v] == VertexKind::border && squared_length(turns[v]) > 1) {
+            features.kinds[v] = VertexKind::corner;
+        }
+    }
+}
 
 Features find_features(const CollapseMesh& mesh, const Watch& watch) {
     Features features;

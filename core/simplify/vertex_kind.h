@@ -47,6 +47,10 @@ struct Features {
     std::vector<FeatureEdge> edges;
 };
 
+// Makes corners of the vertices where a border turns by more than 60 degrees. For orders of collapses whose
+// error does not see borders.
+void lock_sharp_borders(const CollapseMesh& mesh, Features& features);
+
 // O(triangles). Throws when the watch is stopped.
 Features find_features(const CollapseMesh& mesh, const Watch& watch);
 

@@ -1,0 +1,218 @@
+// What every algorithm of the registry must leave true, on every shape.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "core/base/error.h"
+#include "core/mesh/adjacency.h"
+#include "core/simplify/registry.h"
+#include "tests/support/properties.h"
+#include "tests/support/shapes.h"
+
+namespace coppice {
+namespace {
+
+struct NamedMesh {
+    const char* name;
+    Mesh mesh;
+};
+
+const std::vector<NamedMesh>& drawn() {
+    static const std::vector<NamedMesh> list = {
+        {"sphere", shapes::sphere()},
+        {"sphere_of_two_materials", shapes::sphere({.materials = 2})},
+        {"sphere_of_three_materials", shapes::sphere({.materials = 3})},
+        {"cylinder_with_a_seam", shapes::cylinder()},
+        {"open_grid", shapes::grid()},
+        {"hills", shapes::grid({.height = 0.1, .normals = true, .uvs = true, .colors = true})},
+        {"torus", shapes::torus()},
+        {"box", shapes::box({.faceted = false})},
+        {"faceted_box", shapes::box()},
+        {"faceted_sphere", shapes::faceted_sphere()},
+        {"blob", shapes::blob({.segments = 40, .rings = 30})},
+        {"tetrahedron", shapes::tetrahedron()},
+        {"soup", shapes::soup()},
+        {"fin", shapes::fin()},
+        {"skinned_strip", shapes::skinned_strip()},
+    };
+    return list;
+}
+
+// An algorithm with values for some of its parameters.
+struct Variant {
+    std::string algorithm;
+    std::map<std::string, ParameterValue> parameters = {};
+};
+
+void PrintTo(const Variant& v, std::ostream* out) {
+    *out << v.algorithm;
+    for (const auto& [id, value] : v.parameters) *out << ' ' << id << '=' << std::get<std::string>(value);
+}
+
+std::vector<Variant> variants() {
+    std::vector<Variant> list;
+    for (const Algorithm& a : algorithms()) {
+        list.push_back({std::string(a.id)});
+        for (const Parameter& p : a.parameters) {
+            if (p.id != "mode") continue;
+            for (const std::string_view mode : p.choices) {
+                if (ParameterValue(std::string(mode)) != *p.default_value) {
+                    list.push_back({std::string(a.id), {{"mode", std::string(mode)}}});
+                }
+            }
+        }
+    }
+    return list;
+}
+
+Simplified simplify(const Variant& variant, const Mesh& mesh, const Target& target, const Watch& watch = {}) {
+    const Algorithm& a = find_algorithm(variant.algorithm);
+    return a.simplify(mesh, {}, target, ParameterValues::parse(a.parameters, variant.parameters), watch);
+}
+
+Target part_of(const Mesh& mesh, double ratio) {
+    return {.triangles =
+                static_cast<uint64_t>(std::floor(ratio * static_cast<double>(mesh.triangle_count())))};
+}
+
+class EveryAlgorithm : public testing::TestWithParam<std::tuple<Variant, size_t>> {
+  protected:
+    const Variant& variant() const { return std::get<0>(GetParam()); }
+    const Mesh& mesh() const { return drawn()[std::get<1>(GetParam())].mesh; }
+    std::string shape() const { return drawn()[std::get<1>(GetParam())].name; }
+
+    template <typename Check>
+    void at_every_ratio(Check check) {
+        for (const double ratio : {0.9, 0.8, 0.5, 0.3, 0.1}) {
+            SCOPED_TRACE(testing::Message() << shape() << " at " << ratio);
+            check(ratio, simplify(variant(), mesh(), part_of(mesh(), ratio)));
+        }
+    }
+};
+
+TEST_P(EveryAlgorithm, gives_a_consistent_mesh_without_what_is_unused) {
+    at_every_ratio([&](double, const Simplified& s) {
+        EXPECT_TRUE(is_consistent(s.mesh));
+        std::vector<bool> wedge_used(s.mesh.wedge_count()), vertex_used(s.mesh.vertex_count());
+        for (const uint32_t wedge : s.mesh.triangles) {
+            wedge_used[wedge] = true;
+            vertex_used[s.mesh.wedge_vertex[wedge]] = true;
+        }
+        EXPECT_EQ(std::count(wedge_used.begin(), wedge_used.end(), false), 0);
+        EXPECT_EQ(std::count(vertex_used.begin(), vertex_used.end(), false), 0);
+        EXPECT_EQ(s.mesh.attributes.size(), mesh().attributes.size());
+        EXPECT_EQ(s.mesh.morph_targets.size(), mesh().morph_targets.size());
+        EXPECT_EQ(s.mesh.slots.size(), mesh().slots.size());
+    });
+}
+
+TEST_P(EveryAlgorithm, meets_the_target_or_says_why_not) {
+    at_every_ratio([&](double ratio, const Simplified& s) {
+        const double target = ratio * static_cast<double>(mesh().triangle_count());
+        const auto triangles = static_cast<double>(s.mesh.triangle_count());
+        if (s.stop_reason == StopReason::target) {
+            EXPECT_NEAR(triangles, target, std::max(2.0, 0.01 * target));
+        } else {
+            EXPECT_GT(triangles, target);
+            EXPECT_NE(s.stop_reason, StopReason::already_smaller);
+        }
+    });
+}
+
+TEST_P(EveryAlgorithm, makes_no_edge_non_manifold) {
+    at_every_ratio([&](double, const Simplified& s) {
+        EXPECT_TRUE(test::has_no_new_non_manifold_edge(mesh(), s.mesh));
+    });
+}
+
+TEST_P(EveryAlgorithm, flips_no_triangle) {
+    if (shape() == "soup") GTEST_SKIP() << "has no outside";
+    at_every_ratio(
+        [&](double, const Simplified& s) { EXPECT_TRUE(test::has_no_flipped_triangle(mesh(), s.mesh)); });
+}
+
+TEST_P(EveryAlgorithm, keeps_the_box) {
+    at_every_ratio([&](double, const Simplified& s) {
+        const Bounds before = bounds(mesh().positions), after = bounds(s.mesh.positions);
+        EXPECT_LT(length(after.min - before.min), 0.02 * before.diagonal());
+        EXPECT_LT(length(after.max - before.max), 0.02 * before.diagonal());
+    });
+}
+
+// How far the coarser polygon may be from the finer one; round lines lose more than straight ones.
+double line_tolerance(double ratio) {
+    return ratio >= 0.5 ? 0.05 : 0.25;
+}
+
+TEST_P(EveryAlgorithm, keeps_borders) {
+    if (shape() == "soup") GTEST_SKIP() << "is nothing but borders";
+    at_every_ratio([&](double ratio, const Simplified& s) {
+        EXPECT_TRUE(test::keeps_borders(mesh(), s.mesh, line_tolerance(ratio)));
+        if (topology(mesh()).border_edges == 0) {
+            EXPECT_EQ(topology(s.mesh).border_edges, 0U);
+        }
+    });
+}
+
+TEST_P(EveryAlgorithm, keeps_seams) {
+    if (mesh().find_attribute("TEXCOORD_0") == nullptr) GTEST_SKIP() << "has no UVs";
+    at_every_ratio([&](double ratio, const Simplified& s) {
+        EXPECT_TRUE(test::keeps_seams(mesh(), s.mesh, line_tolerance(ratio)));
+        EXPECT_TRUE(test::keeps_charts(mesh(), s.mesh));
+    });
+}
+
+TEST_P(EveryAlgorithm, gives_the_same_twice) {
+    const Simplified a = simplify(variant(), mesh(), part_of(mesh(), 0.4));
+    const Simplified b = simplify(variant(), mesh(), part_of(mesh(), 0.4));
+    EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+    EXPECT_EQ(a.mesh.wedge_vertex, b.mesh.wedge_vertex);
+    EXPECT_EQ(a.mesh.positions, b.mesh.positions);
+    EXPECT_EQ(a.error_model_units, b.error_model_units);
+}
+
+TEST_P(EveryAlgorithm, reports_progress_that_never_goes_back) {
+    std::vector<double> told;
+    simplify(variant(), mesh(), part_of(mesh(), 0.3),
+             {.progress = [&told](double fraction) { told.push_back(fraction); }});
+    ASSERT_FALSE(told.empty());
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_GE(told.front(), 0);
+    EXPECT_EQ(told.back(), 1);
+}
+
+TEST_P(EveryAlgorithm, stops_when_it_is_cancelled) {
+    std::stop_source stop;
+    const Watch watch = {.stop = stop.get_token(), .progress = [&stop](double) { stop.request_stop(); }};
+    try {
+        simplify(variant(), mesh(), part_of(mesh(), 0.1), watch);
+        FAIL() << "went on";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::job_cancelled);
+    }
+}
+
+TEST_P(EveryAlgorithm, leaves_alone_what_is_small_enough) {
+    const Simplified s = simplify(variant(), mesh(), {.triangles = mesh().triangle_count()});
+    EXPECT_EQ(s.stop_reason, StopReason::already_smaller);
+    EXPECT_EQ(s.mesh.triangles, mesh().triangles);
+    EXPECT_EQ(s.error_model_units, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryAlgorithm,
+                         testing::Combine(testing::ValuesIn(variants()),
+                                          testing::Range(size_t{0}, drawn().size())),
+                         [](const testing::TestParamInfo<std::tuple<Variant, size_t>>& tested) {
+                             const Variant& v = std::get<0>(tested.param);
+                             std::string name = v.algorithm;
+                             for (const auto& [id, value] : v.parameters)
+                                 name += "_" + std::get<std::string>(value);
+                             return name + "_" + drawn()[std::get<1>(tested.param)].name;
+                         });
+
+}  // namespace
+}  // namespace coppice

@@ -1,0 +1,157 @@
+// The parts that algorithms are made of: heap, quadric, clouds, deviation, mesh, rules.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "core/simplify/attribute_cloud.h"
+#include "core/simplify/bounds_guard.h"
+#include "core/simplify/collapse_mesh.h"
+#include "core/simplify/collapse_rules.h"
+#include "core/simplify/deviation.h"
+#include "core/simplify/heap.h"
+#include "core/simplify/quadric.h"
+#include "core/simplify/vertex_kind.h"
+#include "tests/support/shapes.h"
+
+namespace coppice {
+namespace {
+
+TEST(IndexedHeap, agrees_with_a_sorted_set) {
+    constexpr uint32_t ids = 50;
+    IndexedHeap heap(ids);
+    std::set<std::pair<double, uint32_t>> sorted;
+    std::vector<double> keys(ids, -1);
+    std::mt19937 random(7);
+    for (int step = 0; step < 5000; ++step) {
+        const uint32_t id = random() % ids;
+        sorted.erase({keys[id], id});
+        if (random() % 3 == 0) {
+            heap.erase(id);
+        } else {
+            keys[id] = random() % 20;  // many ties
+            heap.set(id, keys[id]);
+            sorted.insert({keys[id], id});
+        }
+        ASSERT_EQ(heap.size(), sorted.size());
+        if (!sorted.empty()) {
+            ASSERT_EQ(heap.top(), sorted.begin()->second);
+            ASSERT_EQ(heap.top_key(), sorted.begin()->first);
+        }
+    }
+}
+
+TEST(Quadric, is_the_weighted_sum_of_squared_distances_to_planes) {
+    const Quadric floor = plane_quadric({0, 1, 0}, {5, 2, 7}, 3);
+    const Quadric wall = plane_quadric({1, 0, 0}, {1, 0, 0}, 0.5);
+    EXPECT_DOUBLE_EQ(floor({9, 4, 9}), 3 * 4);
+    EXPECT_DOUBLE_EQ((floor + wall)({4, 3, 0}), 3 * 1 + 0.5 * 9);
+    EXPECT_EQ(plane_quadric({}, {1, 2, 3}, 5)({4, 5, 6}), 0) << "no plane";
+}
+
+TEST(Deviation, measures_to_the_face_the_edge_or_the_corner_of_a_triangle) {
+    const Vec3d a = {0, 0, 0}, b = {4, 0, 0}, c = {0, 4, 0};
+    EXPECT_DOUBLE_EQ(distance_to_triangle({1, 1, -2}, a, b, c), 2);
+    EXPECT_DOUBLE_EQ(distance_to_triangle({2, -3, 0}, a, b, c), 3);
+    EXPECT_DOUBLE_EQ(distance_to_triangle({-3, -4, 0}, a, b, c), 5);
+    EXPECT_DOUBLE_EQ(distance_to_triangle({1, 3, 0}, a, a, a), std::sqrt(10.0));
+}
+
+TEST(AttributeClouds, give_the_weighted_squared_distances_of_all_that_was_merged) {
+    const Mesh mesh = shapes::grid({.columns = 2, .rows = 2, .uvs = true});
+    const CollapseMesh collapsing(mesh);
+    AttributeClouds clouds(collapsing, mesh, {.uv = 10.0});
+    const Attribute& uv = mesh.attributes[0];
+    const auto squared_distance = [&](uint32_t v, uint32_t w) {
+        const uint32_t i = collapsing.wedge_source(v), j = collapsing.wedge_source(w);
+        const double du = uv.values[2 * i] - uv.values[2 * j];
+        const double dv = uv.values[2 * i + 1] - uv.values[2 * j + 1];
+        return 100 * (du * du + dv * dv);
+    };
+    const double expected =
+        clouds.weight(0, 0) * squared_distance(0, 2) + clouds.weight(1, 0) * squared_distance(1, 2);
+    clouds.merge(0, 1);
+    EXPECT_NEAR(clouds.squared_error(1, 2, 0), expected, 1e-9);
+    EXPECT_NEAR(clouds.squared_error(1, 2), expected, 1e-9);
+}
+
+TEST(CollapseMesh, moves_triangles_and_drops_those_at_the_edge) {
+    const Mesh mesh = shapes::sphere({.normals = false});
+    CollapseMesh collapsing(mesh);
+    const uint32_t removed = 30;
+    const uint32_t kept =
+        collapsing.corner_vertex(CollapseMesh::next_corner(collapsing.first_corner(removed)));
+    const uint32_t together = collapsing.valence(removed) + collapsing.valence(kept);
+    collapsing.collapse(removed, kept, {collapsing.wedge_begin(kept)});
+    EXPECT_EQ(collapsing.live_triangles(), mesh.triangle_count() - 2);
+    EXPECT_EQ(collapsing.live_vertices(), mesh.vertex_count() - 1);
+    EXPECT_EQ(collapsing.valence(kept), together - 4);
+    EXPECT_FALSE(collapsing.is_live_vertex(removed));
+    const Mesh result = collapsing.extract(mesh);
+    EXPECT_TRUE(is_consistent(result));
+    EXPECT_EQ(result.triangle_count(), mesh.triangle_count() - 2);
+    EXPECT_EQ(result.vertex_count(), mesh.vertex_count() - 1);
+}
+
+std::map<VertexKind, int> kinds_of(const Mesh& mesh) {
+    std::map<VertexKind, int> count;
+    for (const VertexKind kind : find_features(CollapseMesh(mesh), {}).kinds) ++count[kind];
+    return count;
+}
+
+TEST(VertexKinds, tell_borders_seams_and_edges_of_three_triangles_from_the_rest) {
+    using Kinds = std::map<VertexKind, int>;
+    EXPECT_EQ(kinds_of(shapes::sphere()), (Kinds{{VertexKind::manifold, 266}}));
+    EXPECT_EQ(kinds_of(shapes::grid({.columns = 4, .rows = 4})),
+              (Kinds{{VertexKind::manifold, 9}, {VertexKind::border, 16}}));
+    EXPECT_EQ(kinds_of(shapes::cylinder({.segments = 8, .rows = 4})), (Kinds{{VertexKind::manifold, 21},
+                                                                             {VertexKind::border, 14},
+                                                                             {VertexKind::seam, 3},
+                                                                             {VertexKind::corner, 2}}));
+    EXPECT_EQ(kinds_of(shapes::fin(4))[VertexKind::complex], 5);
+    EXPECT_EQ(kinds_of(shapes::sphere({.segments = 24, .rings = 12, .materials = 3})),
+              (Kinds{{VertexKind::manifold, 231}, {VertexKind::seam, 33}, {VertexKind::corner, 2}}));
+    EXPECT_EQ(kinds_of(shapes::faceted_sphere()), (Kinds{{VertexKind::manifold, 266}}))
+        << "normals and colours are no seams";
+}
+
+TEST(CollapseRules, refuse_what_would_make_a_tetrahedron_flat) {
+    const Mesh mesh = shapes::tetrahedron();
+    const CollapseMesh collapsing(mesh);
+    CollapseRules rules(collapsing, find_features(collapsing, {}).kinds);
+    for (uint32_t kept = 1; kept < 4; ++kept) EXPECT_EQ(rules.check(0, kept), Refusal::topology);
+}
+
+TEST(CollapseRules, refuse_to_fold_a_triangle_over) {
+    // An arrow head: moving the notch (vertex 1) past the line from 0 to 2 turns a triangle over.
+    Mesh mesh = shapes::grid({.columns = 3, .rows = 3});
+    const CollapseMesh before(mesh);
+    for (Vec3f& p : mesh.positions) {
+        if (p.x > 0.5F && p.x < 1 && p.z > 0.3F && p.z < 0.4F) p.x = 0.1F;  // far across its ring
+    }
+    const CollapseMesh collapsing(mesh);
+    CollapseRules rules(collapsing, find_features(collapsing, {}).kinds);
+    uint32_t refused = 0, allowed = 0;
+    Neighbours around(collapsing.vertex_count());
+    for (uint32_t v = 0; v < collapsing.vertex_count(); ++v) {
+        around.gather(collapsing, v);
+        for (const uint32_t u : around.all()) (rules.check(v, u) == Refusal::none ? allowed : refused) += 1;
+    }
+    EXPECT_GT(refused, 0U);
+    EXPECT_GT(allowed, 0U);
+}
+
+TEST(BoundsGuard, keeps_the_last_vertex_of_each_side) {
+    const Mesh mesh = shapes::tetrahedron();
+    const CollapseMesh collapsing(mesh);
+    BoundsGuard guard(collapsing, 0.01);
+    for (uint32_t v = 1; v < 4; ++v) EXPECT_FALSE(guard.may_remove(v));
+    BoundsGuard loose(collapsing, 2.0);
+    EXPECT_TRUE(loose.may_remove(1));
+    for (uint32_t v = 1; v < 4; ++v) loose.remove(v);
+    EXPECT_FALSE(loose.may_remove(0));
+}
+
+}  // namespace
+}  // namespace coppice

@@ -1,0 +1,125 @@
+#include "core/simplify/parameter.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <functional>
+
+#include "core/base/error.h"
+#include "core/simplify/registry.h"
+
+namespace coppice {
+namespace {
+
+using Kind = Parameter::Kind;
+
+constexpr std::array<std::string_view, 2> colors = {"red", "green"};
+
+const std::vector<Parameter>& parameters() {
+    static const std::vector<Parameter> list = {
+        {.id = "color", .kind = Kind::choice, .default_value = "red", .choices = colors},
+        {.id = "part", .minimum = 0, .maximum = 1, .minimum_excluded = true},
+        {.id = "length", .unit = "mesh units", .minimum = 0},
+        {.id = "passes", .kind = Kind::integer, .default_value = 1.0, .minimum = 1, .maximum = 16},
+        {.id = "strict", .kind = Kind::boolean},
+    };
+    return list;
+}
+
+ParameterValues parse(const std::map<std::string, ParameterValue>& given) {
+    return ParameterValues::parse(parameters(), given);
+}
+
+Error refusal(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error;
+    }
+    ADD_FAILURE() << "was accepted";
+    return Error(ErrorCode::internal, "", "");
+}
+
+TEST(ParameterValues, reads_text_and_typed_values_alike) {
+    EXPECT_EQ(parse({{"part", "0.5"}}).number("part"), 0.5);
+    EXPECT_EQ(parse({{"part", 0.5}}).number("part"), 0.5);
+    EXPECT_TRUE(parse({{"strict", "true"}}).boolean("strict"));
+    EXPECT_TRUE(parse({{"strict", true}}).boolean("strict"));
+    EXPECT_EQ(parse({{"color", "green"}}).choice("color"), "green");
+}
+
+TEST(ParameterValues, fills_in_defaults_and_leaves_the_rest_unset) {
+    const ParameterValues values = parse({});
+    EXPECT_EQ(values.choice("color"), "red");
+    EXPECT_EQ(values.number("passes"), 1.0);
+    EXPECT_EQ(values.number("part"), std::nullopt);
+    EXPECT_FALSE(values.boolean("strict"));
+    EXPECT_EQ(values.all().size(), 2U);
+}
+
+TEST(ParameterValues, names_what_it_does_not_know_and_what_there_is) {
+    const Error error = refusal([] { parse({{"colour", "red"}}); });
+    EXPECT_EQ(error.code(), ErrorCode::option_unknown);
+    EXPECT_EQ(error.where(), "colour");
+    EXPECT_EQ(
+        error.message(),
+        "\"colour\" is not a parameter of this algorithm; it takes color, part, length, passes, strict");
+}
+
+struct Wrong {
+    std::string id;
+    ParameterValue value;
+    std::string message;
+};
+
+class WrongValue : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongValue, is_refused_with_what_it_is_and_what_it_may_be) {
+    const Error error = refusal([] { parse({{GetParam().id, GetParam().value}}); });
+    EXPECT_EQ(error.code(), ErrorCode::option_invalid);
+    EXPECT_EQ(error.where(), GetParam().id);
+    EXPECT_EQ(error.message(), GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongValue,
+    testing::Values(Wrong{"color", "blue", "color is \"blue\"; it must be one of red, green"},
+                    Wrong{"color", 1.0, "color is 1; it must be one of red, green"},
+                    Wrong{"part", 0.0, "part is 0; it must be a number greater than 0 up to 1"},
+                    Wrong{"part", "1.5", "part is \"1.5\"; it must be a number greater than 0 up to 1"},
+                    Wrong{"part", "half", "part is \"half\"; it must be a number greater than 0 up to 1"},
+                    Wrong{"part", "0.5x", "part is \"0.5x\"; it must be a number greater than 0 up to 1"},
+                    Wrong{"part", "nan", "part is \"nan\"; it must be a number greater than 0 up to 1"},
+                    Wrong{"part", true, "part is true; it must be a number greater than 0 up to 1"},
+                    Wrong{"length", -1.0, "length is -1; it must be a number from 0 up (mesh units)"},
+                    Wrong{"passes", 1.5, "passes is 1.5; it must be a whole number from 1 to 16"},
+                    Wrong{"strict", "yes", "strict is \"yes\"; it must be true or false"}));
+
+TEST(Registry, lists_each_algorithm_once_and_finds_it_by_its_id) {
+    for (const Algorithm& a : algorithms()) {
+        EXPECT_EQ(&find_algorithm(a.id), &a);
+        EXPECT_NE(a.simplify, nullptr);
+        EXPECT_FALSE(a.title.empty());
+        EXPECT_FALSE(a.citation.empty());
+    }
+    EXPECT_EQ(default_algorithm().id, "its");
+}
+
+TEST(Registry, says_which_algorithms_there_are) {
+    const Error error = refusal([] { find_algorithm("best"); });
+    EXPECT_EQ(error.code(), ErrorCode::option_invalid);
+    EXPECT_THAT(error.message(), testing::HasSubstr("\"best\" does not exist; it may be its"));
+}
+
+TEST(Registry, has_defaults_that_are_allowed) {
+    for (const Algorithm& a : algorithms()) {
+        std::map<std::string, ParameterValue> defaults;
+        for (const auto& [id, value] : ParameterValues::parse(a.parameters, {}).all())
+            defaults.emplace(id, value);
+        EXPECT_NO_THROW(ParameterValues::parse(a.parameters, defaults));
+    }
+}
+
+}  // namespace
+}  // namespace coppice
