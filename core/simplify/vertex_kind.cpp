@@ -12,11 +12,14 @@ struct Spoke {
     uint32_t uses = 0;
     uint32_t near_chart = 0, far_chart = 0;  // of the first triangle
     uint32_t triangles[2] = {0, 0};
-    bool breaks = false;  // a later triangle has other charts
-    uint32_t fan = 0;     // union-find parent, index of a spoke
+    uint32_t opposite[2] = {0, 0};  // their third vertices
+    bool breaks = false;            // a later triangle has other charts
+    uint32_t fan = 0;               // union-find parent, index of a spoke
 
-    bool is_border() const { return uses == 1; }
-    bool is_seam() const { return uses == 2 && breaks; }
+    // Two sheets back to back end where a triangle meets its own reverse.
+    bool is_rim() const { return uses == 2 && opposite[0] == opposite[1]; }
+    bool is_border() const { return uses == 1 || is_rim(); }
+    bool is_seam() const { return uses == 2 && breaks && !is_rim(); }
 };
 
 class Classifier {
@@ -75,7 +78,11 @@ class Classifier {
             s.far_chart = far_chart;
         }
         s.breaks |= s.near_chart != near_chart || s.far_chart != far_chart;
-        if (s.uses < 2) s.triangles[s.uses] = near / 3;
+        if (s.uses < 2) {
+            const uint32_t third = 9 * (near / 3) + 3 - near - far;  // the corners' sum less these two
+            s.triangles[s.uses] = near / 3;
+            s.opposite[s.uses] = mesh_.corner_vertex(third);
+        }
         ++s.uses;
         return i;
     }

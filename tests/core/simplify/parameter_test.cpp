@@ -18,11 +18,16 @@ constexpr std::array<std::string_view, 2> colors = {"red", "green"};
 
 const std::vector<Parameter>& parameters() {
     static const std::vector<Parameter> list = {
-        {.id = "color", .kind = Kind::choice, .default_value = "red", .choices = colors},
-        {.id = "part", .minimum = 0, .maximum = 1, .minimum_excluded = true},
-        {.id = "length", .unit = "mesh units", .minimum = 0},
-        {.id = "passes", .kind = Kind::integer, .default_value = 1.0, .minimum = 1, .maximum = 16},
-        {.id = "strict", .kind = Kind::boolean},
+        {.id = "color", .title = "", .kind = Kind::choice, .default_value = "red", .choices = colors},
+        {.id = "part", .title = "", .minimum = 0, .maximum = 1, .minimum_excluded = true},
+        {.id = "length", .title = "", .unit = "mesh units", .minimum = 0},
+        {.id = "passes",
+         .title = "",
+         .kind = Kind::integer,
+         .default_value = 1.0,
+         .minimum = 1,
+         .maximum = 16},
+        {.id = "strict", .title = "", .kind = Kind::boolean},
     };
     return list;
 }
@@ -61,10 +66,10 @@ TEST(ParameterValues, fills_in_defaults_and_leaves_the_rest_unset) {
 TEST(ParameterValues, names_what_it_does_not_know_and_what_there_is) {
     const Error error = refusal([] { parse({{"colour", "red"}}); });
     EXPECT_EQ(error.code(), ErrorCode::option_unknown);
-    EXPECT_EQ(error.where(), "colour");
-    EXPECT_EQ(
-        error.message(),
-        "\"colour\" is not a parameter of this algorithm; it takes color, part, length, passes, strict");
+    EXPECT_EQ(error.where(), "parameters.colour");
+    EXPECT_EQ(error.message(),
+              "parameters.colour is not a parameter of this algorithm, which takes color, part, length, "
+              "passes, strict");
 }
 
 struct Wrong {
@@ -73,28 +78,32 @@ struct Wrong {
     std::string message;
 };
 
+void PrintTo(const Wrong& wrong, std::ostream* out) {
+    *out << wrong.message;
+}
+
 class WrongValue : public testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongValue, is_refused_with_what_it_is_and_what_it_may_be) {
     const Error error = refusal([] { parse({{GetParam().id, GetParam().value}}); });
     EXPECT_EQ(error.code(), ErrorCode::option_invalid);
-    EXPECT_EQ(error.where(), GetParam().id);
-    EXPECT_EQ(error.message(), GetParam().message);
+    EXPECT_EQ(error.where(), "parameters." + GetParam().id);
+    EXPECT_EQ(error.message(), "parameters." + GetParam().message);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     All, WrongValue,
-    testing::Values(Wrong{"color", "blue", "color is \"blue\"; it must be one of red, green"},
-                    Wrong{"color", 1.0, "color is 1; it must be one of red, green"},
-                    Wrong{"part", 0.0, "part is 0; it must be a number greater than 0 up to 1"},
-                    Wrong{"part", "1.5", "part is \"1.5\"; it must be a number greater than 0 up to 1"},
-                    Wrong{"part", "half", "part is \"half\"; it must be a number greater than 0 up to 1"},
-                    Wrong{"part", "0.5x", "part is \"0.5x\"; it must be a number greater than 0 up to 1"},
-                    Wrong{"part", "nan", "part is \"nan\"; it must be a number greater than 0 up to 1"},
-                    Wrong{"part", true, "part is true; it must be a number greater than 0 up to 1"},
-                    Wrong{"length", -1.0, "length is -1; it must be a number from 0 up (mesh units)"},
-                    Wrong{"passes", 1.5, "passes is 1.5; it must be a whole number from 1 to 16"},
-                    Wrong{"strict", "yes", "strict is \"yes\"; it must be true or false"}));
+    testing::Values(Wrong{"color", "blue", "color is \"blue\"; it takes one of red, green"},
+                    Wrong{"color", 1.0, "color is 1; it takes one of red, green"},
+                    Wrong{"part", 0.0, "part is 0; it takes a number greater than 0 up to 1"},
+                    Wrong{"part", "1.5", "part is \"1.5\"; it takes a number greater than 0 up to 1"},
+                    Wrong{"part", "half", "part is \"half\"; it takes a number greater than 0 up to 1"},
+                    Wrong{"part", "0.5x", "part is \"0.5x\"; it takes a number greater than 0 up to 1"},
+                    Wrong{"part", "nan", "part is \"nan\"; it takes a number greater than 0 up to 1"},
+                    Wrong{"part", true, "part is true; it takes a number greater than 0 up to 1"},
+                    Wrong{"length", -1.0, "length is -1; it takes a number from 0 up (mesh units)"},
+                    Wrong{"passes", 1.5, "passes is 1.5; it takes a whole number from 1 to 16"},
+                    Wrong{"strict", "yes", "strict is \"yes\"; it takes true or false"}));
 
 TEST(Registry, lists_each_algorithm_once_and_finds_it_by_its_id) {
     for (const Algorithm& a : algorithms()) {
@@ -114,9 +123,8 @@ TEST(Registry, says_which_algorithms_there_are) {
 
 TEST(Registry, has_defaults_that_are_allowed) {
     for (const Algorithm& a : algorithms()) {
-        std::map<std::string, ParameterValue> defaults;
-        for (const auto& [id, value] : ParameterValues::parse(a.parameters, {}).all())
-            defaults.emplace(id, value);
+        const ParameterValues parsed = ParameterValues::parse(a.parameters, {});
+        const std::map<std::string, ParameterValue> defaults(parsed.all().begin(), parsed.all().end());
         EXPECT_NO_THROW(ParameterValues::parse(a.parameters, defaults));
     }
 }
