@@ -237,6 +237,12 @@ OptimizeOptions parse_options_json(std::string_view json) {
     return finish(true, std::move(options));
 }
 
+std::vector<OptionDescription> describe_options() {
+    std::vector<OptionDescription> out;
+    for (const Rule& rule : rules) out.push_back({rule.name, rule.takes});
+    return out;
+}
+
 std::string print_options(const OptimizeOptions& options) {
     nlohmann::json json = nlohmann::json::object();
     if (!options.algorithm.empty()) json["algorithm"] = options.algorithm;

@@ -15,6 +15,13 @@ namespace coppice {
 OptimizeOptions parse_options(const std::vector<std::pair<std::string, std::string>>& pairs);
 OptimizeOptions parse_options_json(std::string_view json);
 
+// Every option but the algorithm's own parameters, for help texts: what it is called and what it takes.
+struct OptionDescription {
+    std::string_view name;
+    std::string_view takes;
+};
+std::vector<OptionDescription> describe_options();
+
 // Canonical JSON: given options only, sorted, no white space. Equal options print equally; parses back to the
 // same.
 std::string print_options(const OptimizeOptions& options);

@@ -178,8 +178,8 @@ ReadAsset read_asset(const Upload& upload, const ReadLimits& limits, const Watch
             "entry=\"{}\" takes a zip, and this is none", upload.entry);
     const std::string path = tidy_client_path(upload.asset.path);
     const Format format = detect(upload.asset.bytes, media_type, path);
-    return read_file({path, {}, upload.asset.bytes}, format, Resources(files_beside(upload), folder(path)),
-                     limits, watch);
+    const Resources resources(files_beside(upload), folder(path), upload.beside);
+    return read_file({path, {}, upload.asset.bytes}, format, resources, limits, watch);
 }
 
 }  // namespace coppice

@@ -6,6 +6,7 @@
 
 #include "core/base/bytes.h"
 #include "core/base/watch.h"
+#include "core/format/file_source.h"
 #include "core/format/format.h"
 #include "core/format/limits.h"
 #include "core/scene/scene.h"
@@ -23,8 +24,9 @@ struct UploadedFile {
 struct Upload {
     UploadedFile asset;  // a model file, or a zip of one with its resources
     std::vector<UploadedFile> resources =
-        {};                  // buffers, textures, .mtl: matched by relative path, then base name
-    std::string entry = {};  // which file of a zip is the asset, when it holds several
+        {};                        // buffers, textures, .mtl: matched by relative path, then base name
+    std::string entry = {};        // which file of a zip is the asset, when it holds several
+    FileSource* beside = nullptr;  // asked for what is not among the resources; null: nothing else exists
 };
 
 struct ReadAsset {

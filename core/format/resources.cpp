@@ -88,8 +88,8 @@ void require_inside_upload(std::string_view path, std::string_view where) {
     require(!climbs(path), code, where, "URI \"{}\" climbs out with \"..\"; {}", path, rule);
 }
 
-Resources::Resources(std::vector<ResourceFile> files, std::string folder)
-    : files_(std::move(files)), folder_(std::move(folder)) {
+Resources::Resources(std::vector<ResourceFile> files, std::string folder, FileSource* beside)
+    : files_(std::move(files)), folder_(std::move(folder)), beside_(beside) {
     for (ResourceFile& file : files_) file.path = tidy(file.path);
 }
 
@@ -119,7 +119,8 @@ const ResourceFile* Resources::find_path(std::string_view path, std::string_view
         }
     }
     if (exact_from_root) return exact_from_root;
-    return matches == 1 ? by_base_name : nullptr;
+    if (matches == 1) return by_base_name;
+    return beside_ != nullptr ? beside_->open(wanted) : nullptr;
 }
 
 std::string Resources::listing() const {

@@ -7,22 +7,19 @@
 #include <vector>
 
 #include "core/base/bytes.h"
+#include "core/format/file_source.h"
 
 namespace coppice {
 
-// A file of the upload. A view; whoever made the Resources keeps the bytes alive.
-struct ResourceFile {
-    std::string path;  // relative to the upload's root, separated by '/'
-    ByteView bytes = {};
-};
-
-// Immutable; safe to use from several threads.
+// Immutable; safe to use from several threads where no source stands behind it.
 class Resources {
   public:
     Resources() = default;
     // folder: that of the asset inside the upload ("" at the root, else without a slash at its end); URIs are
     // relative to it.
-    explicit Resources(std::vector<ResourceFile> files, std::string folder = {});
+    // beside: is asked for what the upload itself does not have; may be null.
+    explicit Resources(std::vector<ResourceFile> files, std::string folder = {},
+                       FileSource* beside = nullptr);
 
     // The bytes that a URI of the asset names: percent-decoded once, then as path() finds it.
     // where: the place in the asset that holds the URI, for errors.
@@ -43,6 +40,7 @@ class Resources {
   private:
     std::vector<ResourceFile> files_;
     std::string folder_;
+    FileSource* beside_ = nullptr;
 };
 
 // %41 -> A, once. Throws resource_forbidden on a malformed escape.

@@ -52,6 +52,7 @@ InspectedMesh inspect_mesh(const Mesh& mesh, uint64_t instances) {
 uint64_t bytes_of(const Upload& upload) {
     uint64_t bytes = upload.asset.bytes.size();
     for (const UploadedFile& file : upload.resources) bytes += file.bytes.size();
+    if (upload.beside != nullptr) bytes += upload.beside->opened_bytes();
     return bytes;
 }
 

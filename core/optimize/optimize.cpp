@@ -44,6 +44,7 @@ Upload with_entry(Upload upload, const OptimizeOptions& options) {
 uint64_t bytes_of(const Upload& upload) {
     uint64_t bytes = upload.asset.bytes.size();
     for (const UploadedFile& file : upload.resources) bytes += file.bytes.size();
+    if (upload.beside != nullptr) bytes += upload.beside->opened_bytes();
     return bytes;
 }
 
@@ -113,15 +114,15 @@ Placement simplify(Scene& scene, const Algorithm& algorithm, const OptimizeOptio
 }
 
 // Plain OBJ stores a copy per instance whatever is asked; the writer makes them.
-WrittenAsset write(Scene& scene, const Placement& placement, Format format, Instancing instancing,
-                   const Watch& watch, Report& report) {
-    const bool flattened = format == Format::obj;
-    if (instancing == Instancing::expand && !flattened) scene = expand_meshes(scene);
-    WrittenAsset asset = write_asset(scene, {.format = format, .instancing = instancing}, watch);
+WrittenAsset write(Scene& scene, const Placement& placement, const WriteOptions& output, const Watch& watch,
+                   Report& report) {
+    const bool flattened = output.format == Format::obj;
+    if (output.instancing == Instancing::expand && !flattened) scene = expand_meshes(scene);
+    WrittenAsset asset = write_asset(scene, output, watch);
 
     const std::vector<uint64_t> counts = flattened ? placement.counts() : instances_per_mesh(scene);
     append(report.warnings, asset.warnings);
-    report.output = summarize(scene, counts, flattened, format, asset.bytes.size());
+    report.output = summarize(scene, counts, flattened, output.format, asset.bytes.size());
     report.savings = savings(report.input.bytes, report.output.bytes, asset.mesh_bytes,
                              flattened ? std::vector<uint64_t>{} : counts);
     report.instancing = {.given = placement.instances.size(),
@@ -156,8 +157,8 @@ Optimized optimize(const Upload& upload, const OptimizeOptions& options, const R
     report.input.bytes = bytes_of(upload);
 
     result.asset = timed(watch, "write", times.write, [&] {
-        return write(input.scene, placement, format, options.instancing, watch.part(simplify_ends, 1),
-                     report);
+        const WriteOptions output = {format, options.instancing, options.base_name};
+        return write(input.scene, placement, output, watch.part(simplify_ends, 1), report);
     });
     watch.report(1);
     times.total = milliseconds_since(start);

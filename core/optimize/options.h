@@ -19,8 +19,9 @@ struct OptimizeOptions {
     std::map<std::string, ParameterValue> parameters = {};  // as given; checked against the algorithm's own
     std::optional<Format> format = {};                      // empty: glb; iobj for OBJ input
     Instancing instancing = Instancing::automatic;
-    std::string entry = {};  // which file of a zip is the asset, when it holds several
-    unsigned threads = 0;    // 0: one per core; never changes the result
+    std::string entry = {};           // which file of a zip is the asset, when it holds several
+    std::string base_name = "scene";  // of the files in a zip that is written; not on the wire
+    unsigned threads = 0;             // 0: one per core; never changes the result
 };
 
 // Throws option_invalid, option_unknown or option_conflict. Called before the asset is read, so that a bad

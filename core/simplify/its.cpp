@@ -48,7 +48,8 @@ std::span<const Parameter> parameters() {
         {.id = "max_geometric_error",
          .title = "edges whose geometric error is larger are not collapsed; none unless given",
          .unit = "mesh units",
-         .minimum = 0},
+         .minimum = 0,
+         .ends_run = true},
     }};
     return list;
 }

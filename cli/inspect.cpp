@@ -1,0 +1,76 @@
+#include "core/optimize/inspect.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/files.h"
+#include "cli/progress_bar.h"
+#include "proto/report.h"
+
+namespace coppice {
+
+namespace {
+
+void print_for_people(const Inspection& inspection, std::ostream& out) {
+    const AssetSummary& s = inspection.summary;
+    fmt::print(out, "{}, {}: {} unique meshes, {} instances, {} nodes, {} materials, {} images ({})\n",
+               id(s.format), print_bytes(s.bytes), print_count(s.meshes), print_count(s.instances),
+               print_count(inspection.nodes), print_count(inspection.materials),
+               print_count(inspection.images), print_bytes(s.texture_bytes));
+    fmt::print(out, "triangles: {} stored, {} drawn; vertices {}, wedges {}\n",
+               print_count(s.unique_triangles), print_count(s.rendered_triangles),
+               print_count(s.unique_vertices), print_count(s.wedges));
+    const Bounds& box = inspection.bounds;
+    if (!box.empty()) {
+        fmt::print(out, "box: ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}), diagonal {:g}\n", box.min.x,
+                   box.min.y, box.min.z, box.max.x, box.max.y, box.max.z, box.diagonal());
+    }
+    fmt::print(out, "instancing saves {} of geometry\n\n", print_bytes(inspection.bytes_saved_by_instancing));
+    fmt::print(out, "{:>9} {:>10} {:>9} {:>7} {:>12}  mesh\n", "instances", "triangles", "vertices",
+               "borders", "non-manifold");
+    for (const InspectedMesh& mesh : inspection.meshes) {
+        fmt::print(out, "{:>9} {:>10} {:>9} {:>7} {:>12}  {} [{}]\n", print_count(mesh.instances),
+                   print_count(mesh.triangles), print_count(mesh.vertices), print_count(mesh.border_edges),
+                   print_count(mesh.non_manifold_edges), mesh.name, fmt::join(mesh.attributes, " "));
+    }
+}
+
+struct InspectFlags {
+    std::string input;
+    bool json = false;
+};
+
+int inspect_file(const InspectFlags& flags, const Terminal& terminal) {
+    AssetFile input(flags.input);
+    const Inspection inspection = [&] {
+        ProgressBar bar(terminal);
+        return inspect(input.upload(), generous_limits(), bar.watch());
+    }();
+    if (flags.json) {
+        terminal.out << print_inspection(inspection) << "\n";
+        return 0;
+    }
+    print_for_people(inspection, terminal.out);
+    for (const Warning& warning : inspection.warnings) {
+        fmt::print(terminal.err, "warning {}: {}\n", warning.code, warning.message);
+    }
+    return 0;
+}
+
+}  // namespace
+
+Action add_inspect(CLI::App& app, const Terminal& terminal) {
+    auto flags = std::make_shared<InspectFlags>();
+    CLI::App* command =
+        app.add_subcommand("inspect", "Tells what is in an asset, and what instancing saves in it");
+    command->add_option("IN", flags->input, "The asset's file")->required();
+    command->add_flag("--json", flags->json, "As JSON");
+    return [flags, &terminal] { return inspect_file(*flags, terminal); };
+}
+
+}  // namespace coppice

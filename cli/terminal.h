@@ -1,0 +1,18 @@
+// Where the commands write: data to files or out, words to err.
+#pragma once
+
+#include <ostream>
+#include <string>
+
+namespace coppice {
+
+struct Terminal {
+    std::ostream& out;
+    std::ostream& err;
+    bool shows_progress = false;  // err is a terminal that someone watches
+};
+
+std::string print_bytes(uint64_t bytes);  // "12.3 MB"
+std::string print_count(uint64_t count);  // "1,234,567"
+
+}  // namespace coppice

@@ -1,0 +1,141 @@
+#include "core/optimize/plan.h"
+
+#include <gmock/gmock.h>
+
+#include <numeric>
+
+#include "core/base/error.h"
+#include "core/sample/sample.h"
+#include "core/simplify/registry.h"
+
+namespace coppice {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<uint64_t> split(uint64_t total, std::vector<uint64_t> sizes) {
+    return split_in_proportion(total, sizes);
+}
+
+TEST(SplitInProportion, sums_to_the_total) {
+    const std::vector<uint64_t> sizes = {7, 100, 33, 1, 12'345, 0, 19};
+    for (uint64_t total = 6; total < 12'505; total += 7) {
+        const auto parts = split_in_proportion(total, sizes);
+        EXPECT_EQ(std::accumulate(parts.begin(), parts.end(), uint64_t{0}), total);
+        for (size_t i = 0; i < sizes.size(); ++i) EXPECT_LE(parts[i], sizes[i]);
+    }
+}
+
+TEST(SplitInProportion, gives_the_larger_more) {
+    EXPECT_THAT(split(50, {80, 20}), ElementsAre(40, 10));
+}
+
+TEST(SplitInProportion, breaks_ties_by_index) {
+    EXPECT_THAT(split(4, {3, 3, 3}), ElementsAre(2, 1, 1));
+}
+
+TEST(SplitInProportion, leaves_no_mesh_without_a_triangle) {
+    EXPECT_THAT(split(10, {1000, 3}), ElementsAre(9, 1));
+}
+
+TEST(SplitInProportion, gives_everything_where_the_total_is_larger) {
+    EXPECT_THAT(split(99, {5, 6}), ElementsAre(5, 6));
+}
+
+TEST(SplitInProportion, gives_one_each_where_the_total_is_too_small) {
+    EXPECT_THAT(split(1, {5, 0, 6}), ElementsAre(1, 0, 1));
+}
+
+std::vector<Target> targets_of(const Scene& scene, const OptimizeOptions& options) {
+    const Algorithm& algorithm = default_algorithm();
+    const auto parameters = ParameterValues::parse(algorithm.parameters, options.parameters);
+    return plan_targets(scene, place(scene), algorithm, parameters, options);
+}
+
+Scene cad() {
+    return make_sample("cad", {.scale = 0.1});
+}
+
+TEST(PlanTargets, halves_each_mesh_when_nothing_is_asked) {
+    const Scene scene = cad();
+    const auto targets = targets_of(scene, {});
+    for (size_t i = 0; i < targets.size(); ++i) {
+        EXPECT_NEAR(static_cast<double>(*targets[i].triangles),
+                    0.5 * static_cast<double>(scene.meshes[i].triangle_count()), 0.5);
+        EXPECT_FALSE(targets[i].error_model_units);
+    }
+}
+
+TEST(PlanTargets, has_no_default_ratio_beside_another_target) {
+    const Scene scene = cad();
+    EXPECT_FALSE(targets_of(scene, {.error = 0.01})[0].triangles);
+    EXPECT_FALSE(targets_of(scene, {.parameters = {{"max_geometric_error", 0.1}}})[0].triangles);
+}
+
+TEST(PlanTargets, counts_vertices_where_asked) {
+    const Scene scene = make_sample("bunny13", {});
+    const Target target =
+        targets_of(scene, {.ratio = 0.9, .parameters = {{"stop", std::string("vertices")}}})[0];
+    EXPECT_EQ(target.vertices, 2253U);
+    EXPECT_FALSE(target.triangles);
+}
+
+TEST(PlanTargets, splits_an_absolute_number_over_the_meshes) {
+    uint64_t sum = 0;
+    for (const Target& target : targets_of(cad(), {.triangles = 123})) sum += *target.triangles;
+    EXPECT_EQ(sum, 123U);
+}
+
+TEST(PlanTargets, turns_the_error_into_model_units_at_the_largest_instance) {
+    Scene scene = make_sample("bunny13", {.copies = 2});
+    scene.nodes[0].local = {.m = {4, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2, 0}};
+    scene.nodes[1].local = {};
+    const double diagonal = scene_bounds(scene).diagonal();
+    EXPECT_NEAR(*targets_of(scene, {.error = 0.01})[0].error_model_units, 0.01 * diagonal / 4, 1e-12);
+}
+
+TEST(PlanTargets, knows_a_scale_for_meshes_that_stand_nowhere) {
+    Scene scene = make_sample("bunny13", {.copies = 1});
+    scene.roots.clear();
+    EXPECT_GT(*targets_of(scene, {.error = 0.01})[0].error_model_units, 0);
+}
+
+ErrorCode refused(const OptimizeOptions& options) {
+    try {
+        validate(options);
+    } catch (const Error& error) {
+        return error.code();
+    }
+    return ErrorCode::internal;
+}
+
+TEST(Validate, refuses_what_is_out_of_range) {
+    for (const double ratio : {0.0, 1.5, -1.0, std::nan("")}) {
+        EXPECT_EQ(refused({.ratio = ratio}), ErrorCode::option_invalid) << ratio;
+    }
+    for (const double error : {0.0, -0.1, std::nan(""), HUGE_VAL}) {
+        EXPECT_EQ(refused({.error = error}), ErrorCode::option_invalid) << error;
+    }
+    EXPECT_EQ(refused({.triangles = 0}), ErrorCode::option_invalid);
+    EXPECT_EQ(refused({.algorithm = "magic"}), ErrorCode::option_invalid);
+    EXPECT_EQ(refused({.format = Format::stl}), ErrorCode::option_invalid);
+    EXPECT_EQ(refused({.parameters = {{"no_such", 1.0}}}), ErrorCode::option_unknown);
+}
+
+TEST(Validate, refuses_what_excludes_each_other) {
+    EXPECT_EQ(refused({.ratio = 0.5, .triangles = 10}), ErrorCode::option_conflict);
+    EXPECT_EQ(refused({.triangles = 10, .parameters = {{"stop", std::string("vertices")}}}),
+              ErrorCode::option_conflict);
+    EXPECT_EQ(refused({.format = Format::obj, .instancing = Instancing::gpu}), ErrorCode::option_conflict);
+    EXPECT_EQ(refused({.format = Format::iobj, .instancing = Instancing::expand}),
+              ErrorCode::option_conflict);
+}
+
+TEST(Validate, takes_what_is_right) {
+    EXPECT_NO_THROW(validate({}));
+    EXPECT_NO_THROW(
+        validate({.ratio = 1, .error = 0.001, .format = Format::iobj, .instancing = Instancing::nodes}));
+}
+
+}  // namespace
+}  // namespace coppice
