@@ -19,5 +19,6 @@ Action add_optimize(CLI::App& app, const Terminal& terminal);
 Action add_inspect(CLI::App& app, const Terminal& terminal);
 Action add_algorithms(CLI::App& app, const Terminal& terminal);
 Action add_sample(CLI::App& app, const Terminal& terminal);
+Action add_serve(CLI::App& app, const Terminal& terminal);
 
 }  // namespace coppice

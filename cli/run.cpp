@@ -58,11 +58,12 @@ int run(const std::vector<std::string>& arguments, const Terminal& terminal) {
         "  coppice inspect small.glb\n"
         "  coppice serve --listen 127.0.0.1:8080\n"
         "coppice COMMAND --help tells more.");
-    const std::array<std::pair<const char*, Action>, 4> commands = {{
+    const std::array<std::pair<const char*, Action>, 5> commands = {{
         {"optimize", add_optimize(app, terminal)},
         {"inspect", add_inspect(app, terminal)},
         {"algorithms", add_algorithms(app, terminal)},
         {"sample", add_sample(app, terminal)},
+        {"serve", add_serve(app, terminal)},
     }};
     try {
         std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
