@@ -54,6 +54,7 @@ void answer(const Request& request, Response& response, const JobRecord& record,
         const auto range = parse_range(*wanted, size_bytes);
         if (range) narrow(response, *range, size_bytes);
     } catch (const Error&) {
+        response.headers.clear();  // they are the result's, and a problem is answered
         response.set("Content-Range", fmt::format("bytes */{}", size_bytes));
         throw;
     }

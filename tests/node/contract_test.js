@@ -2,12 +2,13 @@
 'use strict';
 
 const assert = require('node:assert/strict');
+const path = require('node:path');
 const { before, after, test } = require('node:test');
 
 const { Contract } = require('./contract');
 const { multipart, sample, send, startService } = require('./service');
 
-const coppice = process.argv[2];
+const coppice = path.resolve(process.argv[2]);
 const unknown_job = '0'.repeat(32);
 const glb = { 'Content-Type': 'model/gltf-binary' };
 
@@ -160,6 +161,7 @@ test('an inspection tells what is in an asset', async () => {
     assert.deepEqual(report, body);
     await ask('get', '/v1/jobs/{id}/result', 200, { id: id_of(answer) });
     assert.equal((await finished(id_of(answer))).kind, 'inspect');
+    await ask('post', '/v1/inspect', 202, { headers: { ...glb, Prefer: 'respond-async' }, body: scene });
 });
 
 test('the service tells its algorithms, its health and its figures', async () => {
