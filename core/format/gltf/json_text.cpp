@@ -30,8 +30,9 @@ void check_depth(std::string_view text, uint32_t limit) {
         } else if (c == '"') {
             in_string = true;
         } else if (c == '{' || c == '[') {
-            require(++depth <= limit, ErrorCode::asset_malformed, line_and_column(text, i),
-                    "the JSON is nested deeper than {} levels (limit json_depth)", limit);
+            if (++depth <= limit) continue;
+            fail(ErrorCode::asset_malformed, line_and_column(text, i),
+                 fmt::format("the JSON is nested deeper than {} levels (limit json_depth)", limit));
         } else if ((c == '}' || c == ']') && depth > 0) {
             --depth;
         }
