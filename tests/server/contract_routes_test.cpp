@@ -26,7 +26,7 @@ std::set<std::string> operations_of_the_contract() {
             std::string name = method;
             std::transform(name.begin(), name.end(), name.begin(),
                            [](char c) { return static_cast<char>(c - 'a' + 'A'); });
-            operations.insert(name + " " + path);
+            operations.insert(name.append(" ").append(path));
         }
     }
     return operations;
