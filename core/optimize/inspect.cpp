@@ -65,7 +65,7 @@ Inspection inspect(const Upload& upload, const ReadLimits& limits, const Watch& 
     const std::vector<uint64_t> counts = instances_per_mesh(scene);
 
     Inspection out;
-    out.summary = summarize(scene, counts, false, read.format, bytes_of(upload));
+    out.summary = summarize(scene, counts, read.format, bytes_of(upload));
     out.bounds = scene_bounds(scene);
     for (size_t i = 0; i < scene.meshes.size(); ++i) {
         watch.report(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(scene.meshes.size()));

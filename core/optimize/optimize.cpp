@@ -99,10 +99,10 @@ void describe(Report& report, const Algorithm& algorithm, const OptimizeOptions&
 }
 
 // Replaces each of the scene's meshes by its simplified self.
-Placement simplify(Scene& scene, const Algorithm& algorithm, const OptimizeOptions& options,
-                   const Watch& watch, Report& report) {
+Placement simplify(Scene& scene, Format input_format, const Algorithm& algorithm,
+                   const OptimizeOptions& options, const Watch& watch, Report& report) {
     Placement placement = place(scene);
-    report.input = summarize(scene, placement.counts(), false, {}, 0);
+    report.input = summarize(scene, placement.counts(), input_format, 0);
     const std::vector<Target> targets = plan_targets(scene, placement, algorithm, report.parameters, options);
     std::vector<Simplified> simplified = simplify_meshes(scene.meshes, placement, targets, algorithm,
                                                          report.parameters, options.threads, watch);
@@ -122,7 +122,7 @@ WrittenAsset write(Scene& scene, const Placement& placement, const WriteOptions&
 
     const std::vector<uint64_t> counts = flattened ? placement.counts() : instances_per_mesh(scene);
     append(report.warnings, asset.warnings);
-    report.output = summarize(scene, counts, flattened, output.format, asset.bytes.size());
+    report.output = summarize(scene, counts, output.format, asset.bytes.size());
     report.savings = savings(report.input.bytes, report.output.bytes, asset.mesh_bytes,
                              flattened ? std::vector<uint64_t>{} : counts);
     report.instancing = {.given = placement.instances.size(),
@@ -151,9 +151,9 @@ Optimized optimize(const Upload& upload, const OptimizeOptions& options, const R
     check_output(format, options.instancing);
 
     const Placement placement = timed(watch, "simplify", times.simplify, [&] {
-        return simplify(input.scene, algorithm, options, watch.part(read_ends, simplify_ends), report);
+        return simplify(input.scene, input.format, algorithm, options, watch.part(read_ends, simplify_ends),
+                        report);
     });
-    report.input.format = input.format;
     report.input.bytes = bytes_of(upload);
 
     result.asset = timed(watch, "write", times.write, [&] {

@@ -34,12 +34,17 @@ std::vector<uint64_t> instances_per_mesh(const Scene& scene) {
     return counts;
 }
 
-AssetSummary summarize(const Scene& scene, std::span<const uint64_t> instances_of_mesh, bool expanded,
-                       Format format, uint64_t bytes) {
+uint64_t stored_copies(Format format, uint64_t instances) {
+    if (format == Format::obj) return instances;
+    return format == Format::iobj && instances == 0 ? 0 : 1;
+}
+
+AssetSummary summarize(const Scene& scene, std::span<const uint64_t> instances_of_mesh, Format format,
+                       uint64_t bytes) {
     AssetSummary summary{.bytes = bytes, .format = format};
     for (size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
-        const uint64_t drawn = instances_of_mesh[i], stored = expanded ? drawn : 1;
+        const uint64_t drawn = instances_of_mesh[i], stored = stored_copies(format, drawn);
         summary.meshes += stored;
         summary.instances += drawn;
         summary.unique_triangles += stored * mesh.triangle_count();
@@ -54,7 +59,7 @@ AssetSummary summarize(const Scene& scene, std::span<const uint64_t> instances_o
 }
 
 AssetSummary summarize(const Scene& scene, Format format, uint64_t bytes) {
-    return summarize(scene, instances_per_mesh(scene), false, format, bytes);
+    return summarize(scene, instances_per_mesh(scene), format, bytes);
 }
 
 Savings savings(uint64_t input_bytes, uint64_t output_bytes, std::span<const uint64_t> mesh_bytes,

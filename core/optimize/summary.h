@@ -10,9 +10,12 @@ namespace coppice {
 
 std::vector<uint64_t> instances_per_mesh(const Scene& scene);
 
-// expanded: the file stores one copy of a mesh per instance, as OBJ does and instancing=expand asks for.
-AssetSummary summarize(const Scene& scene, std::span<const uint64_t> instances_of_mesh, bool expanded,
-                       Format format, uint64_t bytes);
+// How many copies of its mesh a file holds: glTF every mesh once, instanced OBJ only those that stand
+// somewhere, plain OBJ one per instance.
+uint64_t stored_copies(Format format, uint64_t instances);
+
+AssetSummary summarize(const Scene& scene, std::span<const uint64_t> instances_of_mesh, Format format,
+                       uint64_t bytes);
 
 // What instancing saves is computed from the bytes that each mesh's geometry takes in the file, once for each
 // further instance; writing the expanded file to measure it would cost more than it tells.

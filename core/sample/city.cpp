@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/sample/builder.h"
@@ -57,29 +58,31 @@ struct Facade {
 void add_window(MeshBuilder& builder, const Slots& slots, const Facade& facade, uint32_t column,
                 uint32_t floor) {
     constexpr double frame = 0.2, depth = 0.15;
-    const std::array<double, 4> corner_x = {0, 1, 1, 0}, corner_z = {0, 0, 1, 1};
+    // Around the cell: its corners and the middles of its sides.
+    constexpr std::array<double, 8> around_x = {0, 0.5, 1, 1, 1, 0.5, 0, 0};
+    constexpr std::array<double, 8> around_z = {0, 0, 0, 0.5, 1, 1, 1, 0.5};
     const auto inset = [](double c) { return frame + (1 - 2 * frame) * c; };
-    for (size_t i = 0; i < 4; ++i) {
-        const size_t j = (i + 1) % 4;
+    for (size_t i = 0; i < 8; ++i) {
+        const size_t j = (i + 1) % 8;
         const auto outer = [&](size_t k) {
-            return facade.wall(column + corner_x[k], floor + corner_z[k], 0);
+            return facade.wall(column + around_x[k], floor + around_z[k], 0);
         };
         const auto inner = [&](size_t k, double in) {
-            return facade.wall(column + inset(corner_x[k]), floor + inset(corner_z[k]), in);
+            return facade.wall(column + inset(around_x[k]), floor + inset(around_z[k]), in);
         };
         builder.quad(slots.wall, outer(i), outer(j), inner(j, 0), inner(i, 0));
         builder.quad(slots.wall, inner(i, 0), inner(j, 0), inner(j, depth), inner(i, depth));
     }
-    const auto pane = [&](size_t k) {
-        return facade.glass(column + inset(corner_x[k]), floor + inset(corner_z[k]), depth);
-    };
-    builder.quad(slots.glass, pane(0), pane(1), pane(2), pane(3));
+    builder.patch(slots.glass, 2, 2, [&](uint32_t row, uint32_t c) {  // rows to the right, columns upwards
+        return facade.glass(column + inset(0.5 * row), floor + inset(0.5 * c), depth);
+    });
 }
 
 void add_lid(MeshBuilder& builder, uint32_t slot, const Building& building, double z, bool up) {
-    builder.patch(slot, building.columns, building.rows, [&](uint32_t row, uint32_t column) {
-        const double x = (up ? row : building.columns - row) - 0.5 * building.columns,
-                     y = column - 0.5 * building.rows;
+    const uint32_t rows = 2 * building.columns, columns = 2 * building.rows;  // to meet the walls' vertices
+    builder.patch(slot, rows, columns, [&](uint32_t row, uint32_t column) {
+        const double x = 0.5 * (up ? row : rows - row) - 0.5 * building.columns;
+        const double y = 0.5 * column - 0.5 * building.rows;
         return Corner{.position = building.shaped({x * building.cell, y * building.cell, z}),
                       .u = 0.5 + x / building.columns,
                       .v = 0.5 + y / building.rows,
@@ -108,16 +111,23 @@ Mesh building_mesh(const std::string& name, const Building& building, std::array
     return builder.finish();
 }
 
+// Of the buildings with that many columns, the one whose triangles come closest.
 Building design(Random& random, uint32_t triangles) {
-    Building building{.columns = 2 + random.below(4), .rows = 2 + random.below(4)};
-    if (triangles < 500) building.columns = building.rows = 1;
-    const double lids = 4.0 * building.columns * building.rows;
-    const double storey = 36.0 * (building.columns + building.rows);  // 18 triangles a window
-    building.floors = static_cast<uint32_t>(std::max(1L, std::lround((triangles - lids) / storey)));
-    building.cell = random.uniform(0.8, 1.2);
+    Building best{.columns = triangles < 1000 ? 1 + random.below(2) : 2 + random.below(4)};
+    double best_off = std::numeric_limits<double>::infinity();
+    for (uint32_t rows = 1; rows <= 5; ++rows) {
+        const double storey = 80.0 * (best.columns + rows), lids = 16.0 * best.columns * rows;  // 40 a window
+        const auto floors = static_cast<uint32_t>(std::max(1L, std::lround((triangles - lids) / storey)));
+        const double off = std::abs(lids + storey * floors - triangles);
+        if (off >= best_off) continue;
+        best_off = off;
+        best.rows = rows;
+        best.floors = floors;
+    }
+    best.cell = random.uniform(0.8, 1.2);
     const bool tapers = random.below(2) == 1;
-    building.taper = tapers ? random.uniform(0.1, 0.4) : 0;
-    return building;
+    best.taper = tapers ? random.uniform(0.1, 0.4) : 0;
+    return best;
 }
 
 Mesh street_mesh(double size, uint32_t material) {

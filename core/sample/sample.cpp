@@ -20,7 +20,7 @@ struct Sample {
 constexpr std::array samples = {
     Sample{{"forest", "four trees, placed hundreds of times on a hilly ground", 300, 3000}, make_forest},
     Sample{
-        {"city", "six buildings of wall, glass and roof, placed hundreds of times along streets", 300, 2500},
+        {"city", "six buildings of wall, glass and roof, placed hundreds of times along streets", 300, 4000},
         make_city},
     Sample{{"bunny13", "one organic mesh of the small bunny's size, placed thirteen times", 13, 5002},
            make_bunny},

@@ -32,7 +32,8 @@ std::vector<std::pair<uint32_t, uint32_t>> mesh_pairs(const Scene& before, const
 // Not more edges with three triangles or more, nor with two that run along it in the same direction.
 ::testing::AssertionResult has_no_new_non_manifold_edge(const Mesh& before, const Mesh& after);
 
-// No triangle whose normal points away from all of the original surface near its centroid.
+// No triangle whose normal points away from all of the original surface near its centroid and around its
+// corners.
 ::testing::AssertionResult has_no_flipped_triangle(const Mesh& before, const Mesh& after);
 
 // Each border edge runs along an original border, and no original border is without one near it; near: a

@@ -27,7 +27,7 @@ TEST(Summarize, counts_what_is_stored_and_what_is_drawn) {
 
 TEST(Summarize, counts_a_copy_per_instance_where_the_file_stores_one) {
     const Scene scene = make_sample("bunny13", {});
-    const AssetSummary summary = summarize(scene, instances_per_mesh(scene), true, Format::obj, 0);
+    const AssetSummary summary = summarize(scene, Format::obj, 0);
     EXPECT_EQ(summary.meshes, 13U);
     EXPECT_EQ(summary.unique_triangles, summary.rendered_triangles);
 }
