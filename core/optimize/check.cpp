@@ -84,7 +84,7 @@ std::vector<Warning> check_result(const Scene& before, const Placement& placemen
         if (had_triangles && simplified[i].mesh.triangle_count() == 0) {
             vanished.add(i, before);
         } else if (had_triangles && !placement.of_mesh[i].empty() &&
-                   box_moved(before.meshes[i], simplified[i].mesh) * placement.scale(i) >
+                   box_moved(before.meshes[i], simplified[i].mesh) * placement.scales[i] >
                        0.01 * placement.diagonal) {
             moved.add(i, before);
         }

@@ -57,7 +57,7 @@ std::vector<MeshReport> mesh_reports(const Scene& scene, const Placement& placem
                                      const std::vector<Simplified>& simplified) {
     std::vector<MeshReport> reports;
     for (size_t i = 0; i < simplified.size(); ++i) {
-        const double world_error = simplified[i].error_model_units * placement.scale(i);
+        const double world_error = simplified[i].error_model_units * placement.scales[i];
         reports.push_back(
             {.name = scene.meshes[i].name,
              .instances = placement.of_mesh[i].size(),
@@ -99,18 +99,15 @@ void describe(Report& report, const Algorithm& algorithm, const OptimizeOptions&
 }
 
 // Replaces each of the scene's meshes by its simplified self.
-Placement simplify(Scene& scene, Format input_format, const Algorithm& algorithm,
-                   const OptimizeOptions& options, const Watch& watch, Report& report) {
-    Placement placement = place(scene);
-    report.input = summarize(scene, placement.counts(), input_format, 0);
+std::vector<MeshReport> simplify(Scene& scene, const Placement& placement, const Algorithm& algorithm,
+                                 const OptimizeOptions& options, const Watch& watch, Report& report) {
     const std::vector<Target> targets = plan_targets(scene, placement, algorithm, report.parameters, options);
     std::vector<Simplified> simplified = simplify_meshes(scene.meshes, placement, targets, algorithm,
                                                          report.parameters, options.threads, watch);
-    report.meshes = mesh_reports(scene, placement, simplified);
-    append(report.warnings, std::move(scene.warnings));
+    std::vector<MeshReport> reports = mesh_reports(scene, placement, simplified);
     append(report.warnings, check_result(scene, placement, targets, simplified, options));
     for (size_t i = 0; i < simplified.size(); ++i) scene.meshes[i] = std::move(simplified[i].mesh);
-    return placement;
+    return reports;
 }
 
 // Plain OBJ stores a copy per instance whatever is asked; the writer makes them.
@@ -150,11 +147,14 @@ Optimized optimize(const Upload& upload, const OptimizeOptions& options, const R
     const Format format = output_format(options, input.format);
     check_output(format, options.instancing);
 
-    const Placement placement = timed(watch, "simplify", times.simplify, [&] {
-        return simplify(input.scene, input.format, algorithm, options, watch.part(read_ends, simplify_ends),
+    const Placement placement = timed(watch, "discover", times.discover, [&] { return place(input.scene); });
+    report.input = summarize(input.scene, placement.counts(), input.format, bytes_of(upload));
+    append(report.warnings, std::move(input.scene.warnings));
+
+    report.meshes = timed(watch, "simplify", times.simplify, [&] {
+        return simplify(input.scene, placement, algorithm, options, watch.part(read_ends, simplify_ends),
                         report);
     });
-    report.input.bytes = bytes_of(upload);
 
     result.asset = timed(watch, "write", times.write, [&] {
         const WriteOptions output = {format, options.instancing, options.base_name};

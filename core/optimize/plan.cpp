@@ -23,17 +23,17 @@ bool gives_target(const Algorithm& algorithm, const OptimizeOptions& options) {
         });
 }
 
+double scale_of(const std::vector<Transform>& instances) {
+    double largest = 0;
+    for (const Transform& world : instances) largest = std::max(largest, largest_scale(world));
+    return largest > 0 ? largest : 1;
+}
+
 uint64_t share(double ratio, size_t count) {
     return std::max<uint64_t>(1, static_cast<uint64_t>(std::llround(ratio * static_cast<double>(count))));
 }
 
 }  // namespace
-
-double Placement::scale(size_t mesh) const {
-    double largest = 0;
-    for (const Transform& world : of_mesh[mesh]) largest = std::max(largest, largest_scale(world));
-    return largest > 0 ? largest : 1;
-}
 
 std::vector<uint64_t> Placement::counts() const {
     std::vector<uint64_t> counts;
@@ -47,6 +47,8 @@ Placement place(const Scene& scene) {
     placement.of_mesh.resize(scene.meshes.size());
     for (const Instance& instance : placement.instances)
         placement.of_mesh[instance.mesh].push_back(instance.world);
+    for (const std::vector<Transform>& of_one : placement.of_mesh)
+        placement.scales.push_back(scale_of(of_one));
     placement.diagonal = diagonal_of(scene, placement.instances);
     return placement;
 }
@@ -93,7 +95,7 @@ std::vector<Target> plan_targets(const Scene& scene, const Placement& placement,
         if (ratio && counts_vertices) targets[i].vertices = share(*ratio, mesh.vertex_count());
         if (ratio && !counts_vertices) targets[i].triangles = share(*ratio, mesh.triangle_count());
         if (options.error)
-            targets[i].error_model_units = *options.error * placement.diagonal / placement.scale(i);
+            targets[i].error_model_units = *options.error * placement.diagonal / placement.scales[i];
     }
     return targets;
 }

@@ -15,10 +15,10 @@ namespace coppice {
 struct Placement {
     std::vector<Instance> instances;              // in scene order
     std::vector<std::vector<Transform>> of_mesh;  // per unique mesh: world transforms, in scene order
+    std::vector<double>
+        scales;           // per unique mesh: largest factor by which an instance stretches it; 1 if none
     double diagonal = 0;  // of the scene's box; where it draws nothing, of its meshes'
 
-    // Largest factor by which an instance of the mesh stretches it; 1 for a mesh that stands nowhere.
-    double scale(size_t mesh) const;
     std::vector<uint64_t> counts() const;  // instances of each unique mesh
 };
 

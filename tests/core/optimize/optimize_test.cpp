@@ -103,7 +103,7 @@ TEST(Optimize, tells_its_stages_and_a_progress_that_never_goes_back) {
     };
     watch.progress = [&](double fraction) { progress.push_back(fraction); };
     optimize(cad().upload(), {}, {}, watch);
-    EXPECT_THAT(stages, ElementsAre("read", "simplify", "write"));
+    EXPECT_THAT(stages, ElementsAre("read", "discover", "simplify", "write"));
     EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
     EXPECT_EQ(progress.back(), 1);
 }
