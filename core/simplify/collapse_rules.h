@@ -14,7 +14,8 @@ namespace coppice {
 enum class Refusal : uint8_t {
     none,
     locked,    // by the kinds of its vertices, or a seam without counterpart
-    topology,  // it would join, close, duplicate or drop something, or flip or flatten a triangle
+    topology,  // it would join, close, duplicate or drop something, flip or flatten a triangle, or move a
+               // line
     bounds,    // the box of the mesh would shrink
     error,     // beyond the target's error
 };

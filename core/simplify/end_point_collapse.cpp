@@ -8,6 +8,8 @@ namespace {
 
 // The box may lose 1 % of its diagonal; rounding in writers needs a little of that.
 constexpr double bounds_tolerance_of_diagonal = 0.009;
+// Borders and seams may move by 5 %, likewise.
+constexpr double line_tolerance_of_diagonal = 0.049;
 
 double way(uint32_t first, uint32_t now, std::optional<uint64_t> target) {
     if (!target || *target >= first) return target ? 1.0 : 0.0;
@@ -33,6 +35,7 @@ EndPointCollapse::EndPointCollapse(const Mesh& source, const Target& target, con
       errors_(mesh_, features_.edges, clouds_, options.weights),
       rules_(mesh_, features_.kinds),
       bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal()),
+      lines_(mesh_, features_, line_tolerance_of_diagonal * mesh_.box().diagonal()),
       deviation_(mesh_),
       wedge_map_(mesh_, clouds_),
       around_(mesh_.vertex_count()),
@@ -91,6 +94,7 @@ Candidate EndPointCollapse::next_candidate(uint32_t removed, std::optional<Candi
 Refusal EndPointCollapse::check(uint32_t removed, uint32_t kept) {
     if (!wedge_map_.find(removed, kept)) return Refusal::locked;
     if (!bounds_.may_remove(removed)) return Refusal::bounds;
+    if (!lines_.may_remove(removed, kept)) return Refusal::topology;
     const Refusal refusal = rules_.check(removed, kept);
     if (refusal != Refusal::none) return refusal;
     next_deviation_ = deviation_.after(removed, kept);
@@ -107,6 +111,7 @@ Refusal EndPointCollapse::try_collapse(uint32_t removed, uint32_t kept) {
     errors_.merge(removed, kept, wedge_map_.wedges());
     deviation_.merge(kept, next_deviation_);
     bounds_.remove(removed);
+    lines_.remove(removed, kept);
     mesh_.collapse(removed, kept, wedge_map_.wedges());
     return Refusal::none;
 }

@@ -17,6 +17,7 @@
 #include "core/simplify/collapse_mesh.h"
 #include "core/simplify/collapse_rules.h"
 #include "core/simplify/deviation.h"
+#include "core/simplify/line_guard.h"
 #include "core/simplify/neighbours.h"
 #include "core/simplify/unified_error.h"
 #include "core/simplify/wedge_map.h"
@@ -80,6 +81,7 @@ class EndPointCollapse {
     UnifiedError errors_;
     CollapseRules rules_;
     BoundsGuard bounds_;
+    LineGuard lines_;
     Deviation deviation_;
     WedgeMap wedge_map_;
     Neighbours around_;

@@ -1,0 +1,46 @@
+// Keeps borders and seams where they are: however many of its vertices go, a line stays within a tolerance of
+// where it was at the start.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/simplify/collapse_mesh.h"
+#include "core/simplify/vertex_kind.h"
+
+namespace coppice {
+
+// What quadrics weigh against everything else, this limits: a target that can only be met by cutting the
+// corner off a square sheet, or off a box with a seam around it, is not met.
+class LineGuard {
+  public:
+    // tolerance in mesh units.
+    LineGuard(const CollapseMesh& mesh, const Features& features, double tolerance);
+
+    // Whether the line of `removed`, drawn straight from `kept` to its other neighbour, is near enough. True
+    // for vertices of no line.
+    bool may_remove(uint32_t removed, uint32_t kept) const;
+    void remove(uint32_t removed, uint32_t kept);
+
+  private:
+    // Where the line goes from a vertex, and a bound on how far that edge is from the original line.
+    struct Next {
+        uint32_t vertex = no_index;
+        double away = 0;
+    };
+    using Both = std::array<Next, 2>;
+
+    // The neighbours of `removed` with `kept` first; none where they are no neighbours on a line.
+    std::optional<Both> along(uint32_t removed, uint32_t kept) const;
+    double away_without(uint32_t removed, const Both& ends) const;
+    void relink(uint32_t vertex, uint32_t from, Next to);
+
+    const CollapseMesh& mesh_;
+    double tolerance_;
+    std::vector<bool> on_line_;  // per vertex: a border or a seam passes through it
+    std::vector<Both> next_;     // per vertex; of those alone
+};
+
+}  // namespace coppice
