@@ -93,7 +93,8 @@ bool is_version(std::string_view text) {
 }  // namespace
 
 void check_asset(const Json& document) {
-    demand(document.is_object(), "", "the JSON must be an object, but is {}", document.type_name());
+    require(document.is_object(), ErrorCode::asset_malformed, "", "the document must be an object, but is {}",
+            document.type_name());
     // glTF 1.0 need not have an asset object; it has maps where 2.0 has arrays.
     const Json& asset = member(document, "asset");
     const bool has_version = asset.is_object() && asset.contains("version") && asset["version"].is_string();

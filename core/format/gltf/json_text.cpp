@@ -17,6 +17,13 @@ std::string line_and_column(std::string_view text, size_t offset) {
     return fmt::format("line {} column {}", line, before.size() - line_begin + 1);
 }
 
+// "... number overflow parsing '1e999'" -> 1e999: the parser gives no position, but the number as it was
+// written.
+std::string quoted(std::string_view message) {
+    const size_t begin = std::min(message.find('\''), message.size() - 1) + 1;
+    return std::string(message.substr(begin, message.rfind('\'') - begin));
+}
+
 // The nesting depth is counted before parsing: the parser itself is iterative, but whoever copies or prints
 // the tree later recurses.
 void check_depth(std::string_view text, uint32_t limit) {
@@ -77,8 +84,10 @@ Json parse_json(ByteView bytes, const ReadLimits& limits) {
              fmt::format("the JSON cannot be parsed{}", colon == std::string_view::npos
                                                             ? std::string()
                                                             : std::string(message.substr(colon))));
-    } catch (const Json::exception&) {
-        fail(ErrorCode::asset_malformed, "", "the JSON holds a number that is out of range");
+    } catch (const Json::exception& error) {
+        const std::string number = quoted(error.what());
+        fail(ErrorCode::asset_malformed, line_and_column(text, text.find(number)),
+             fmt::format("the JSON holds the number {}, which is out of range", number.substr(0, 60)));
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/format/gltf/document.h"
+#include "core/format/gltf/drawable_materials.h"
 #include "core/format/gltf/fresh_document.h"
 #include "core/format/gltf/glb.h"
 #include "core/format/gltf/gltf.h"
@@ -223,11 +224,15 @@ WrittenDocument write_document(const Scene& scene, const WriteOptions& options, 
                                const Watch& watch) {
     require(options.instancing != Instancing::gpu, ErrorCode::option_conflict, "instancing",
             "instancing=gpu is not available yet; it may be auto, nodes or expand");
-    if (options.instancing == Instancing::expand)
-        return DocumentWriter(expand_meshes(scene), options, watch).write(images);
-    if (options.instancing == Instancing::nodes)
-        return DocumentWriter(batches_as_nodes(scene), options, watch).write(images);
-    return DocumentWriter(scene, options, watch).write(images);
+    std::vector<Warning> warnings;
+    std::optional<Scene> changed;
+    if (dynamic_cast<const GltfDocument*>(scene.source.get()) == nullptr)
+        changed = with_drawable_materials(scene, warnings);
+    if (options.instancing == Instancing::expand) changed = expand_meshes(changed ? *changed : scene);
+    if (options.instancing == Instancing::nodes) changed = batches_as_nodes(changed ? *changed : scene);
+    WrittenDocument out = DocumentWriter(changed ? *changed : scene, options, watch).write(images);
+    out.warnings.insert(out.warnings.begin(), warnings.begin(), warnings.end());
+    return out;
 }
 
 }  // namespace coppice::gltf
