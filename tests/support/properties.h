@@ -36,8 +36,8 @@ std::vector<std::pair<uint32_t, uint32_t>> mesh_pairs(const Scene& before, const
 // corners.
 ::testing::AssertionResult has_no_flipped_triangle(const Mesh& before, const Mesh& after);
 
-// Each border edge runs along an original border, and no original border is without one near it; near: a
-// fraction of the mesh's diagonal.
+// Each border edge runs along an original border, nearer than that fraction of the mesh's diagonal, and no
+// original border is without one nearer than twice that.
 ::testing::AssertionResult keeps_borders(const Mesh& before, const Mesh& after, double diagonal_fraction);
 
 // The same for the edges along which texture coordinates are cut.

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
+#include <stdexcept>
 
 namespace coppice::test {
 namespace {
@@ -71,9 +73,8 @@ std::vector<fs::path> companions(const fs::path& asset, std::string_view text) {
 
 std::optional<fs::path> asset_folder() {
     const char* named = std::getenv("COPPICE_TEST_ASSETS");
-    const fs::path folder = named != nullptr && *named != '\0'
-                                ? fs::path(named)
-                                : fs::path(COPPICE_SOURCE_ROOT) / "../shared/assets";
+    const fs::path folder =
+        named != nullptr && *named != '\0' ? fs::path(named) : source_root() / "../shared/assets";
     std::error_code error;
     if (!fs::is_directory(folder, error)) return {};
     return fs::canonical(folder);
@@ -107,11 +108,29 @@ std::vector<std::string> gltf2_files(std::string_view folder) {
     return files;
 }
 
+std::map<std::string, std::string> refused_files() {
+    std::map<std::string, std::string> refused;
+    std::ifstream table(source_root() / "tests/assets/refused_files.tsv");
+    std::string line;
+    while (std::getline(table, line)) {
+        if (line.empty() || line.front() == '#') continue;
+        std::istringstream cells(line);
+        std::string file;
+        std::getline(cells, file, '\t');
+        std::getline(cells, refused[file], '\t');
+    }
+    return refused;
+}
+
 std::string test_name(std::string_view file) {
     std::string name(file);
     for (char& c : name)
         if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
     return name;
+}
+
+fs::path source_root() {
+    return COPPICE_SOURCE_ROOT;
 }
 
 Bytes read_file(const fs::path& path) {

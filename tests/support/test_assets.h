@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,8 +29,15 @@ std::vector<std::string> asset_files(std::string_view folder, const std::vector<
 // Of those, the glTF 2.0 ones: .glb and .gltf whose asset.version is "2.0".
 std::vector<std::string> gltf2_files(std::string_view folder);
 
+// file -> problem code, for files outside invalid/ that are refused on purpose, as
+// tests/assets/refused_files.tsv says.
+std::map<std::string, std::string> refused_files();
+
 // "instanced/pins.glb" -> "instanced_pins_glb", for the names of parameterized tests.
 std::string test_name(std::string_view file);
+
+// The root of the checkout that the tests were built from.
+std::filesystem::path source_root();
 
 Bytes read_file(const std::filesystem::path& path);
 
