@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/format/archive.h"
+#include "core/format/clean_triangles.h"
 #include "core/format/detect.h"
 #include "core/format/gltf/gltf.h"
 #include "core/format/obj/read_obj.h"
@@ -75,21 +76,29 @@ const NamedFile& choose_asset(const std::vector<NamedFile>& files, const std::st
     return *assets.front();
 }
 
-ReadAsset read_file(const UploadedFile& file, Format format, const Resources& resources,
-                    const ReadLimits& limits, const Watch& watch) {
+Scene read_scene(const UploadedFile& file, Format format, const Resources& resources,
+                 const ReadLimits& limits, const Watch& watch) {
     switch (format) {
         case Format::obj:
         case Format::iobj:
-            return {read_obj(file.bytes, resources, limits, watch), format};
+            return read_obj(file.bytes, resources, limits, watch);
         case Format::ply:
-            return {read_ply(file.bytes, file.path, resources, limits, watch), format};
+            return read_ply(file.bytes, file.path, resources, limits, watch);
         case Format::stl:
-            return {read_stl(file.bytes, file.path, limits, watch), format};
+            return read_stl(file.bytes, file.path, limits, watch);
         case Format::glb:
         case Format::gltf:
-            return {read_gltf(file.bytes, resources, limits, watch), format};
+            return read_gltf(file.bytes, resources, limits, watch);
     }
     fail(ErrorCode::asset_unsupported, "", fmt::format("{} is not read", id(format)));
+}
+
+ReadAsset read_file(const UploadedFile& file, Format format, const Resources& resources,
+                    const ReadLimits& limits, const Watch& watch) {
+    ReadAsset asset = {read_scene(file, format, resources, limits, watch), format};
+    // The glTF reader has done so, and its warnings point into the document.
+    if (format != Format::glb && format != Format::gltf) clean_triangles(asset.scene);
+    return asset;
 }
 
 // A client's own path may be absolute or a Windows one; it is only a name to be found under.

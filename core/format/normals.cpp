@@ -59,13 +59,13 @@ void repair_normals(Mesh& mesh, WarningTally& tally) {
             continue;
         }
         if (std::abs(size - 1) > text_rounding) {
-            tally.note("normal.not_unit", "normals that are not unit length were made so", mesh.name);
+            tally.note("repair.normals", "normals that are not unit length were made so", mesh.name);
         }
         if (std::abs(size - 1) <= exact_enough) continue;
         for (size_t i = 0; i < 3; ++i) value[i] = static_cast<float>(value[i] / size);
     }
     if (without_direction.empty()) return;
-    tally.note("normal.no_direction",
+    tally.note("repair.normals",
                "normals that are zero or not finite were replaced by those of their triangles", mesh.name);
     replace_by_triangle_normals(mesh, *found, without_direction);
 }

@@ -17,6 +17,7 @@ struct Counts {
     size_t meshes = 1, materials = 0, images = 0;
 };
 
+// Triangles without area and second ones are not counted.
 const Counts table[] = {
     {"models/suzanne.obj", 968},
     {"models/stanford-bunny.obj", 69451},
@@ -28,13 +29,13 @@ const Counts table[] = {
     {"textured/pizza.obj", 49954},
     {"textured/obj2gltf/box-windows-paths/box-windows-paths.obj", 12, 1, 1, 1},
     {"textured/obj2gltf/box-mtllib/box-mtllib.obj", 12, 1, 3},
-    {"duplicates/office_chair.obj", 6893, 1, 3},
-    {"duplicates/regr01.obj", 2710, 1, 12},
+    {"duplicates/office_chair.obj", 6853, 1, 3},
+    {"duplicates/regr01.obj", 2706, 1, 12},
     {"features/obj/box_UTF16BE.obj", 12, 1, 1},
     {"features/obj/concave_polygon.obj", 64, 1, 1},
     {"features/obj/cornell_box_multimaterial.obj", 36, 8, 5},
     {"features/obj/negative_indices.obj", 12},
-    {"features/obj/number_formats.obj", 1},
+    {"features/obj/number_formats.obj", 0},
     {"features/obj/catmark_torus_creases0.obj", 64},
     {"models/apple.ply", 1704},
     {"models/horse.ply", 96966},
@@ -77,7 +78,7 @@ TEST(SimpleFormats, refuse_broken_files_with_a_reason_or_read_them_to_something_
             const UploadedAsset asset = load_asset(file);
             try {
                 const Scene scene = read_asset(asset.upload(), {}, Watch{}).scene;
-                EXPECT_GT(triangles(scene), 0U);
+                EXPECT_TRUE(triangles(scene) > 0 || !scene.warnings.empty());
                 for (const Mesh& mesh : scene.meshes) EXPECT_TRUE(is_consistent(mesh));
                 ++read;
             } catch (const Error& error) {

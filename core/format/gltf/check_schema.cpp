@@ -40,7 +40,8 @@ class SchemaCheck {
         for (const Property& property : schema.properties) {
             const auto found = value.find(property.name);
             if (found == value.end()) {
-                demand(!property.required_, "has no '{}', which every {} must have", property.name, schema.name);
+                demand(!property.required_, "has no '{}', which every {} must have", property.name,
+                       schema.name);
                 continue;
             }
             const size_t length = push(property.name);

@@ -144,7 +144,7 @@ class BodyReader {
     void add_color(double value, PlyType type) {
         const double full = !is_integer(type) ? 1 : size_of(type) <= 2 ? largest(type) : 255;
         if (!std::isfinite(value)) {
-            tally_.note("color.not_finite", "a vertex colour is not finite; it was made white",
+            tally_.note("repair.non_finite", "a vertex colour is not finite; it was made white",
                         source_.where());
             value = full;
         }
@@ -153,7 +153,7 @@ class BodyReader {
 
     float finite_uv(float value) {
         if (std::isfinite(value)) return value;
-        tally_.note("uv.not_finite", "a texture coordinate is not finite; it was made 0", source_.where());
+        tally_.note("repair.non_finite", "a texture coordinate is not finite; it was made 0", source_.where());
         return 0;
     }
 

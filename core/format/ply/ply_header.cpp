@@ -84,7 +84,7 @@ class HeaderParser {
                 "\"{}\" is no PLY header line; format, comment, obj_info, element, property, end_header are",
                 word.substr(0, 40));
         }
-        if (!line.done()) line.fail("\"{}\" is too much in a {} line", line.rest().substr(0, 40), word);
+        if (!line.done()) line.fail("\"{}\" is too much in the {} line", line.rest().substr(0, 40), word);
     }
 
     void comment(Line& line) {

@@ -47,6 +47,15 @@ TEST(Asset, is_read_with_resources_that_came_as_parts) {
     EXPECT_EQ(asset.scene.images.size(), 1U);
 }
 
+TEST(Asset, loses_triangles_without_area_and_second_ones_and_says_so) {
+    const Scene scene =
+        read(to_bytes("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 2 3 1\nf 1 1 2\nf 1 3 4\n")).scene;
+    EXPECT_EQ(scene.meshes[0].triangle_count(), 2U);
+    ASSERT_EQ(scene.warnings.size(), 2U);
+    EXPECT_EQ(scene.warnings[0].code, "repair.degenerate_triangles");
+    EXPECT_EQ(scene.warnings[1].code, "repair.duplicate_triangles");
+}
+
 TEST(Asset, is_found_in_a_zip_nearest_to_the_root_with_its_own_folder) {
     const Bytes zip = zipped({{"readme.txt", "hello"},
                               {"scene/lods/low.obj", triangle},

@@ -139,7 +139,7 @@ TEST(ObjRead, repairs_other_values_that_are_not_finite) {
     const Scene scene =
         read("v 0 0 0 nan 0 0\nv 1 0 0\nv 0 1 0\nvt inf 0\nvn nan 0 0\nf 1/1/1 2/1/1 3/1/1\n");
     EXPECT_THAT(warning_codes(scene),
-                testing::UnorderedElementsAre("color.not_finite", "uv.not_finite", "normal.no_direction"));
+                testing::UnorderedElementsAre("repair.non_finite", "repair.non_finite", "repair.normals"));
     EXPECT_THAT(scene.meshes[0].find_attribute("NORMAL")->values, ElementsAre(0, 0, 1, 0, 0, 1, 0, 0, 1));
 }
 
