@@ -9,6 +9,7 @@ namespace coppice {
 struct ReadLimits {
     uint64_t triangles = 20'000'000;            // stored, over all unique meshes
     uint64_t rendered_triangles = 200'000'000;  // after expansion of instances
+    uint64_t instances = 5'000'000;
     uint64_t vertices = 30'000'000;
     uint64_t json_bytes = 64ULL << 20;
     uint32_t json_depth = 64;

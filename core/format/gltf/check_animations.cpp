@@ -11,10 +11,19 @@ namespace {
 
 constexpr double quaternion_tolerance = 0.00769;  // as Khronos' validator has it
 
+// Accessors whose values were looked at, for whatever animation.
+struct Seen {
+    std::set<uint32_t> times;
+    std::set<std::pair<uint32_t, bool>> quaternions;  // with: cubic
+};
+
 class AnimationCheck {
   public:
-    AnimationCheck(Parsed& parsed, size_t index)
-        : parsed_(parsed), json_(parsed.json["animations"][index]), where_(pointer("animations", index)) {}
+    AnimationCheck(Parsed& parsed, size_t index, Seen& seen)
+        : parsed_(parsed),
+          seen_(seen),
+          json_(parsed.json["animations"][index]),
+          where_(pointer("animations", index)) {}
 
     void run() {
         const Json& samplers = json_["samplers"];
@@ -58,7 +67,7 @@ class AnimationCheck {
                "is accessor {}, which has no min and max; times must have them", index);
         demand(!is_cubic(sampler) || input.count >= 2, where + "/input",
                "is accessor {} with {} times; CUBICSPLINE needs two", index, input.count);
-        if (input.has_no_data()) return;
+        if (input.has_no_data() || !seen_.times.insert(index).second) return;
         for (uint64_t i = 0; i < input.count; ++i) {
             const double time = input.raw(i, 0);
             demand(time >= 0, where + "/input",
@@ -125,6 +134,7 @@ class AnimationCheck {
     }
 
     void quaternions(const Accessor& output, uint32_t index, bool cubic, const std::string& where) {
+        if (!seen_.quaternions.insert({index, cubic}).second) return;
         uint64_t wrong = 0;
         for (uint64_t i = cubic ? 1 : 0; i < output.count; i += cubic ? 3 : 1) {
             double sum = 0;
@@ -146,6 +156,7 @@ class AnimationCheck {
     }
 
     Parsed& parsed_;
+    Seen& seen_;
     const Json& json_;
     std::string where_;
 };
@@ -153,7 +164,8 @@ class AnimationCheck {
 }  // namespace
 
 void check_animations(Parsed& parsed) {
-    for (size_t i = 0; i < list(parsed.json, "animations").size(); ++i) AnimationCheck(parsed, i).run();
+    Seen seen;
+    for (size_t i = 0; i < list(parsed.json, "animations").size(); ++i) AnimationCheck(parsed, i, seen).run();
 }
 
 }  // namespace coppice::gltf

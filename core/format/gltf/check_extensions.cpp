@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <charconv>
+#include <map>
 #include <set>
 
 #include "core/format/gltf/checks.h"
@@ -67,18 +67,21 @@ void for_each_extension(const Json& value, const See& see) {
     }
 }
 
-// The objects whose meaning an unknown extension could change under our hands.
-std::string first_geometric_use(const Json& document, std::string_view name) {
+// Where each extension first stands on an object whose meaning it could change under our hands.
+std::map<std::string, std::string> geometric_uses(const Json& document) {
+    std::map<std::string, std::string> uses;
     for (const char* array : {"meshes", "accessors", "bufferViews", "nodes"}) {
         const Json& items = list(document, array);
         for (size_t i = 0; i < items.size(); ++i) {
-            if (extension(items[i], name) != nullptr) return pointer(array, i);
+            for (const auto& [name, content] : member(items[i], "extensions").items())
+                uses.try_emplace(name, pointer(array, i));
             const Json& primitives = list(items[i], "primitives");
             for (size_t p = 0; p < primitives.size(); ++p)
-                if (extension(primitives[p], name) != nullptr) return pointer(array, i, "primitives", p);
+                for (const auto& [name, content] : member(primitives[p], "extensions").items())
+                    uses.try_emplace(name, pointer(array, i, "primitives", p));
         }
     }
-    return {};
+    return uses;
 }
 
 bool is_version(std::string_view text) {
@@ -127,24 +130,29 @@ void check_extensions(Parsed& parsed) {
     const Json& document = parsed.json;
     const Json& used = list(document, "extensionsUsed");
     const Json& required = list(document, "extensionsRequired");
+    const std::map<std::string, std::string> uses = geometric_uses(document);
+    std::set<std::string> declared;
+    for (const Json& name : used) declared.insert(name.get<std::string>());
     for (size_t i = 0; i < required.size(); ++i) {
         const auto& name = required[i].get_ref<const std::string&>();
-        demand(std::find(used.begin(), used.end(), name) != used.end(), pointer("extensionsRequired", i),
+        demand(declared.contains(name), pointer("extensionsRequired", i),
                "is {}, which is not in extensionsUsed", name.substr(0, 100));
         if (is_known(name)) continue;
-        const std::string use = first_geometric_use(document, name);
-        require(use.empty(), ErrorCode::asset_extension_unsupported, use,
-                "{} needs the extension {}, which is required and not known here", use, name.substr(0, 100));
+        if (const auto use = uses.find(name); use != uses.end())
+            fail(ErrorCode::asset_extension_unsupported, use->second,
+                 fmt::format("{} needs the extension {}, which is required and not known here", use->second,
+                             name.substr(0, 100)));
     }
     const auto lists = [&](const Json& names, std::string_view name) {
         return std::find(names.begin(), names.end(), name) != names.end();
     };
     demand(!lists(used, "KHR_mesh_quantization") || lists(required, "KHR_mesh_quantization"),
            "/extensionsUsed", "lists KHR_mesh_quantization, which must be in extensionsRequired too");
-    const std::string compressed = first_geometric_use(document, "KHR_meshopt_compression");
-    require(compressed.empty(), ErrorCode::asset_extension_unsupported, compressed,
-            "{} is compressed with KHR_meshopt_compression, which is not read; EXT_meshopt_compression is",
-            compressed);
+    if (const auto use = uses.find("KHR_meshopt_compression"); use != uses.end())
+        fail(ErrorCode::asset_extension_unsupported, use->second,
+             fmt::format("{} is compressed with KHR_meshopt_compression, which is not read; "
+                         "EXT_meshopt_compression is",
+                         use->second));
     for (const std::string& name : extensions_with_unknown_indices(document))
         parsed.warn(
             "extension.unknown",

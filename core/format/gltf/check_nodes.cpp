@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "core/format/gltf/checks.h"
@@ -71,7 +72,7 @@ size_t target_count(const Json& document, uint32_t mesh) {
     return list(document["meshes"][mesh]["primitives"][0], "targets").size();
 }
 
-void check_mesh_use(const Json& document, size_t index) {
+void check_mesh_use(const Json& document, size_t index, const std::vector<bool>& has_joints) {
     const Json& node = document["nodes"][index];
     const auto mesh = index_at(node, "mesh");
     const std::string where = pointer("nodes", index);
@@ -83,12 +84,17 @@ void check_mesh_use(const Json& document, size_t index) {
         demand(node["weights"].size() == target_count(document, *mesh), where + "/weights",
                "has {} numbers, but mesh {} has {} morph targets", node["weights"].size(), *mesh,
                target_count(document, *mesh));
-    const Json& primitives = document["meshes"][*mesh]["primitives"];
-    const bool has_joints = std::any_of(primitives.begin(), primitives.end(), [](const Json& primitive) {
-        return primitive["attributes"].contains("JOINTS_0");
-    });
-    demand(has_joints || !node.contains("skin"), where + "/skin", "is there, but mesh {} has no JOINTS_0",
-           *mesh);
+    demand(has_joints[*mesh] || !node.contains("skin"), where + "/skin",
+           "is there, but mesh {} has no JOINTS_0", *mesh);
+}
+
+std::vector<bool> meshes_with_joints(const Json& document) {
+    std::vector<bool> out;
+    for (const Json& mesh : list(document, "meshes"))
+        out.push_back(
+            std::any_of(mesh["primitives"].begin(), mesh["primitives"].end(),
+                        [](const Json& primitive) { return primitive["attributes"].contains("JOINTS_0"); }));
+    return out;
 }
 
 void check_scenes(const Json& document, const std::vector<uint32_t>& parents) {
@@ -132,7 +138,9 @@ void check_joints(const Json& skin, const std::vector<uint32_t>& parents, const 
            where + "/skeleton", "is node {}, which is not above all joints", skeleton.value_or(0));
 }
 
-void check_inverse_bind(Parsed& parsed, const Json& skin, const std::string& skin_pointer) {
+// seen: whose values were looked at for another skin.
+void check_inverse_bind(Parsed& parsed, const Json& skin, const std::string& skin_pointer,
+                        std::set<uint32_t>& seen) {
     const auto index = index_at(skin, "inverseBindMatrices");
     if (!index) return;
     const std::string where = skin_pointer + "/inverseBindMatrices";
@@ -146,7 +154,7 @@ void check_inverse_bind(Parsed& parsed, const Json& skin, const std::string& ski
     demand(!view || !parsed.json["bufferViews"][*view].contains("byteStride"), where,
            "is accessor {}, whose buffer view has a byteStride; only vertex attributes may", *index);
     if (view) set_view_usage(parsed, *view, ViewUsage::inverse_bind, where);
-    if (accessor.has_no_data()) return;
+    if (accessor.has_no_data() || !seen.insert(*index).second) return;
     for (uint64_t i = 0; i < accessor.count; ++i)
         for (uint32_t row : {3U, 7U, 11U, 15U})
             demand(accessor.raw(i, row) == (row == 15 ? 1 : 0), where,
@@ -156,15 +164,22 @@ void check_inverse_bind(Parsed& parsed, const Json& skin, const std::string& ski
 // A skinned node is only posed where its joints are: in the same scene.
 void check_skin_scenes(const Json& document, const std::vector<uint32_t>& parents) {
     const Json& nodes = list(document, "nodes");
+    // Per root with skinned nodes below: the roots that their joints have, and one such node each.
+    std::map<uint32_t, std::map<uint32_t, uint32_t>> needs;
+    for (uint32_t i = 0; i < nodes.size(); ++i)
+        if (const auto skin = index_at(nodes[i], "skin"))
+            needs[root_of(parents, i)].try_emplace(
+                root_of(parents, document["skins"][*skin]["joints"][0].get<uint32_t>()), i);
+    if (needs.empty()) return;
     for (const Json& scene : list(document, "scenes")) {
         std::set<uint32_t> roots;
         for (const Json& root : list(scene, "nodes")) roots.insert(root.get<uint32_t>());
-        for (uint32_t i = 0; i < nodes.size(); ++i) {
-            const auto skin = index_at(nodes[i], "skin");
-            if (!skin || !roots.contains(root_of(parents, i))) continue;
-            const auto joint = document["skins"][*skin]["joints"][0].get<uint32_t>();
-            demand(roots.contains(root_of(parents, joint)), pointer("nodes", i),
-                   "has skin {}, whose joints are not in the scene", *skin);
+        for (const uint32_t root : roots) {
+            const auto found = needs.find(root);
+            if (found == needs.end()) continue;
+            for (const auto& [joint_root, node] : found->second)
+                demand(roots.contains(joint_root), pointer("nodes", node),
+                       "has a skin whose joints are not in the scene");
         }
     }
 }
@@ -175,9 +190,10 @@ void check_nodes(Parsed& parsed, const ReadLimits& limits) {
     const Json& nodes = list(parsed.json, "nodes");
     const std::vector<uint32_t> parents = parents_of(nodes);
     check_depths(parents, limits);
+    const std::vector<bool> has_joints = meshes_with_joints(parsed.json);
     for (size_t i = 0; i < nodes.size(); ++i) {
         check_transform(parsed, i);
-        check_mesh_use(parsed.json, i);
+        check_mesh_use(parsed.json, i, has_joints);
     }
     check_scenes(parsed.json, parents);
 }
@@ -185,9 +201,10 @@ void check_nodes(Parsed& parsed, const ReadLimits& limits) {
 void check_skins(Parsed& parsed) {
     const std::vector<uint32_t> parents = parents_of(list(parsed.json, "nodes"));
     const Json& skins = list(parsed.json, "skins");
+    std::set<uint32_t> seen;
     for (size_t i = 0; i < skins.size(); ++i) {
         check_joints(skins[i], parents, pointer("skins", i));
-        check_inverse_bind(parsed, skins[i], pointer("skins", i));
+        check_inverse_bind(parsed, skins[i], pointer("skins", i), seen);
     }
     check_skin_scenes(parsed.json, parents);
 }

@@ -37,6 +37,7 @@ void check_depth(std::string_view text, uint32_t limit) {
         } else if (c == '"') {
             in_string = true;
         } else if (c == '{' || c == '[') {
+            // Not require(): counting lines for each bracket would take quadratic time.
             if (++depth <= limit) continue;
             fail(ErrorCode::asset_malformed, line_and_column(text, i),
                  fmt::format("the JSON is nested deeper than {} levels (limit json_depth)", limit));

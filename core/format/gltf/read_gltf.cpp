@@ -49,6 +49,7 @@ void check_use(Parsed& parsed, const Watch& watch) {
 // Triangles with every instance, before any instance is made.
 void check_rendered(const Parsed& parsed, const std::vector<Mesh>& meshes, const ReadLimits& limits) {
     uint64_t rendered = 0;
+    uint64_t instances = 0;
     const Json& nodes = list(parsed.json, "nodes");
     for (size_t i = 0; i < nodes.size(); ++i) {
         const auto mesh = index_at(nodes[i], "mesh");
@@ -56,6 +57,10 @@ void check_rendered(const Parsed& parsed, const std::vector<Mesh>& meshes, const
         uint64_t count = 1;
         if (const Json* instancing = extension(nodes[i], "EXT_mesh_gpu_instancing"))
             count = parsed.accessors[(*instancing)["attributes"].begin()->get<uint32_t>()].count;
+        require(count <= limits.instances && instances + count <= limits.instances,
+                ErrorCode::asset_too_large, pointer("nodes", i),
+                "there are more than {} instances (limit instances)", limits.instances);
+        instances += count;
         const uint64_t triangles = std::max<uint64_t>(meshes[*mesh].triangle_count(), 1);
         require(count <= limits.rendered_triangles / triangles &&
                     rendered + count * triangles <= limits.rendered_triangles,

@@ -1,6 +1,7 @@
 #include "core/format/gltf/read_scene.h"
 
 #include <algorithm>
+#include <charconv>
 
 namespace coppice::gltf {
 
@@ -54,8 +55,11 @@ void mark_animated(const Json& document, std::vector<Node>& nodes) {
             const Json* pointed = extension(target, "KHR_animation_pointer");
             if (pointed == nullptr) continue;
             const std::string at = text_at(*pointed, "pointer");
-            for (uint32_t i = 0; at.starts_with("/nodes/") && i < nodes.size(); ++i)
-                if (at.starts_with(fmt::format("/nodes/{}/", i))) nodes[i].animated = true;
+            constexpr std::string_view prefix = "/nodes/";
+            if (!at.starts_with(prefix)) continue;
+            uint32_t index = 0;
+            const auto parsed = std::from_chars(at.data() + prefix.size(), at.data() + at.size(), index);
+            if (parsed.ec == std::errc() && index < nodes.size()) nodes[index].animated = true;
         }
 }
 

@@ -157,6 +157,14 @@ TEST(GltfRefuse, broken_json_with_line_and_column) {
     EXPECT_THAT(error_of([] { test::read(as_bytes("{\n  \"asset\": nope}")); }), HasSubstr("line 2 column"));
 }
 
+TEST(GltfRefuse, more_instances_than_the_limit_before_it_makes_them) {
+    GltfBuilder builder = square();
+    builder.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+    builder.json["accessors"].push_back({{"componentType", 5126}, {"count", 20000000}, {"type", "VEC3"}});
+    builder.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", 2}};
+    EXPECT_THAT(error_of(builder), HasSubstr("limit instances"));
+}
+
 TEST(GltfRefuse, nodes_deeper_than_the_limit) {
     GltfBuilder builder = square();
     Json nodes = Json::array();
