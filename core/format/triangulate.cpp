@@ -96,6 +96,8 @@ class EarClipper {
     // triangles.
     bool clip_round(Wanted wanted) {
         for (size_t steps = left_; steps > 0; --steps) {
+            if (tests_left_ == 0) return false;
+            --tests_left_;
             if (is_wanted(at_, wanted)) {
                 const uint32_t after = next_[at_];
                 clip(at_);

@@ -12,7 +12,8 @@ namespace coppice {
 
 class WarningTally {
   public:
-    // The same code and message count up; where is that of the first.
+    // The same code and message count up; where is that of the first. Beyond 200 different ones they are only
+    // counted.
     void note(std::string_view code, std::string_view message, std::string_view where);
     void move_to(std::vector<Warning>& warnings);  // in order of first appearance
 
@@ -21,7 +22,9 @@ class WarningTally {
         Warning warning;
         uint64_t count = 0;
     };
+    static constexpr size_t most_entries = 200;
     std::vector<Entry> entries_;
+    uint64_t left_out_ = 0;  // notes beyond those
 };
 
 }  // namespace coppice

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/error.h"
+
 namespace coppice {
 
 namespace {
@@ -45,8 +47,15 @@ Placement place(const Scene& scene) {
     Placement placement;
     placement.instances = instances(scene);
     placement.of_mesh.resize(scene.meshes.size());
-    for (const Instance& instance : placement.instances)
+    for (const Instance& instance : placement.instances) {
+        if (!instance.world.is_finite()) {
+            fail(
+                ErrorCode::asset_malformed, fmt::format("nodes[{}]", instance.node),
+                fmt::format("node {} stands at a transform that is not finite, once its parents' are applied",
+                            instance.node));
+        }
         placement.of_mesh[instance.mesh].push_back(instance.world);
+    }
     for (const std::vector<Transform>& of_one : placement.of_mesh)
         placement.scales.push_back(scale_of(of_one));
     placement.diagonal = diagonal_of(scene, placement.instances);

@@ -16,15 +16,19 @@ void unfold_batches(Scene& scene) {
         if (scene.nodes[n].batch.empty()) continue;
         const std::vector<Transform> batch = std::exchange(scene.nodes[n].batch, {});
         const std::optional<uint32_t> mesh = std::exchange(scene.nodes[n].mesh, {});
+        std::vector<uint32_t> unfolded;
         for (const Transform& local : batch) {
             Node child;
             child.name = scene.nodes[n].name;
             child.parent = static_cast<uint32_t>(n);
             child.local = local;
             child.mesh = mesh;
-            scene.nodes[n].children.push_back(static_cast<uint32_t>(scene.nodes.size()));
+            unfolded.push_back(static_cast<uint32_t>(scene.nodes.size()));
             scene.nodes.push_back(std::move(child));
         }
+        // First, so that instances() lists them in the order in which it listed the batch.
+        auto& children = scene.nodes[n].children;
+        children.insert(children.begin(), unfolded.begin(), unfolded.end());
     }
 }
 

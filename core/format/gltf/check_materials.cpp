@@ -98,10 +98,8 @@ void check_materials(Parsed& parsed) {
             for (const uint32_t index : materials_of(primitive)) {
                 const Json& material = document["materials"][index];
                 const uint64_t sets = texture_sets(material);
-                for (uint64_t set = 0; set < sets; ++set)
-                    demand(
-                        set + 1 != sets || primitive["attributes"].contains(fmt::format("TEXCOORD_{}", set)),
-                        where, "has no TEXCOORD_{}, which its material {} needs", set, index);
+                demand(sets == 0 || primitive["attributes"].contains(fmt::format("TEXCOORD_{}", sets - 1)),
+                       where, "has no TEXCOORD_{}, which its material {} needs", sets - 1, index);
                 const bool has_tangents =
                     primitive["attributes"].contains("TANGENT") && primitive["attributes"].contains("NORMAL");
                 demand(has_tangents || !needs_tangents(material) || material.contains("normalTexture"), where,

@@ -47,19 +47,33 @@ void check_depth(std::string_view text, uint32_t limit) {
     }
 }
 
-// Sees every key as it is parsed and refuses the second of a kind in one object.
-class DuplicateKeys {
+// Refuses the second key of a name in one object. A pass of its own: a callback of Json::parse would look at
+// all children of an object or array for each that ends, which is quadratic.
+class DuplicateKeys : public nlohmann::json_sax<Json> {
   public:
-    bool operator()(int, Json::parse_event_t event, Json& parsed) {
-        if (event == Json::parse_event_t::object_start) {
-            keys_.emplace_back();
-        } else if (event == Json::parse_event_t::object_end) {
-            keys_.pop_back();
-        } else if (event == Json::parse_event_t::key) {
-            const auto& key = parsed.get_ref<const std::string&>();
-            require(keys_.back().insert(key).second, ErrorCode::asset_malformed, "",
-                    "the JSON has the key '{}' twice in one object", key.substr(0, 100));
-        }
+    bool null() override { return true; }
+    bool boolean(bool) override { return true; }
+    bool number_integer(Json::number_integer_t) override { return true; }
+    bool number_unsigned(Json::number_unsigned_t) override { return true; }
+    bool number_float(Json::number_float_t, const std::string&) override { return true; }
+    bool string(std::string&) override { return true; }
+    bool binary(Json::binary_t&) override { return true; }
+    bool start_array(size_t) override { return true; }
+    bool end_array() override { return true; }
+    bool parse_error(size_t, const std::string&, const nlohmann::detail::exception&) override {
+        return false;  // Json::parse says it
+    }
+    bool start_object(size_t) override {
+        keys_.emplace_back();
+        return true;
+    }
+    bool end_object() override {
+        keys_.pop_back();
+        return true;
+    }
+    bool key(std::string& name) override {
+        require(keys_.back().insert(name).second, ErrorCode::asset_malformed, "",
+                "the JSON has the key '{}' twice in one object", name.substr(0, 100));
         return true;
     }
 
@@ -77,7 +91,9 @@ Json parse_json(ByteView bytes, const ReadLimits& limits) {
             "the JSON begins with a byte order mark, which glTF forbids");
     check_depth(text, limits.json_depth);
     try {
-        return Json::parse(text.begin(), text.end(), DuplicateKeys());
+        DuplicateKeys duplicates;
+        Json::sax_parse(text.begin(), text.end(), &duplicates);
+        return Json::parse(text.begin(), text.end());
     } catch (const Json::parse_error& error) {
         const std::string_view message = error.what();
         const size_t colon = message.rfind("; expected");

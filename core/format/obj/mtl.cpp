@@ -190,7 +190,8 @@ std::string print_mtl(std::span<const Material> materials, std::span<const std::
         const Material& m = materials[i];
         const auto& c = m.base_color;
         fmt::format_to(std::back_inserter(out), "newmtl {}\nKd {} {} {}\nd {}\nPr {}\nPm {}\n", names[i],
-                       c[0], c[1], c[2], c[3], m.roughness, m.metallic);
+                       c[0], c[1], c[2], m.alpha == Material::Alpha::opaque ? 1.0F : c[3], m.roughness,
+                       m.metallic);
         if (m.emissive != std::array<float, 3>{0, 0, 0}) {
             fmt::format_to(std::back_inserter(out), "Ke {} {} {}\n", m.emissive[0], m.emissive[1],
                            m.emissive[2]);

@@ -72,6 +72,8 @@ class BodyReader {
                 skip(element);
             }
         }
+        // Faces with texture coordinates may stand beside strips and faces without.
+        if (!body_.corner_uvs.empty()) body_.corner_uvs.resize(2 * body_.triangles.size());
         if (body_.positions.empty()) body_.triangles.clear();
         return std::move(body_);
     }
@@ -225,6 +227,7 @@ class BodyReader {
         }
         face_triangles_.clear();
         triangulate(corners_, face_triangles_);
+        if (has_uvs) body_.corner_uvs.resize(2 * body_.triangles.size());
         for (const uint32_t corner : face_triangles_) {
             body_.triangles.push_back(static_cast<uint32_t>(face_[corner]));
             if (!has_uvs) continue;

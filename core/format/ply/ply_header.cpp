@@ -109,8 +109,12 @@ class HeaderParser {
     }
 
     void element(Line& line) {
+        const std::string name(line.word());
+        for (const PlyElement& earlier : header_.elements) {
+            if (earlier.name == name) line.fail("element {} stands there twice", name.substr(0, 40));
+        }
         PlyElement& element = header_.elements.emplace_back();
-        element.name = std::string(line.word());
+        element.name = name;
         const int64_t count = line.integer("the count of an element");
         if (count < 0 || static_cast<uint64_t>(count) > most_rows) {
             line.fail("element {} has {} rows; 0 to {} are possible", element.name, count, most_rows);
