@@ -117,7 +117,8 @@ class ObjParser {
         if (!line.ended())
             line.fail("a vertex takes x y z, then w, or r g b and alpha: this has more numbers");
         if (!std::isfinite(color.x) || !std::isfinite(color.y) || !std::isfinite(color.z)) {
-            tally_.note("repair.non_finite", "a vertex colour is not finite; it was made white", line.where());
+            tally_.note("repair.non_finite", "a vertex colour is not finite; it was made white",
+                        line.where());
             color = {1, 1, 1};
         }
         file_.colors.resize(file_.positions.size(), {1, 1, 1});
@@ -129,7 +130,8 @@ class ObjParser {
         if (!line.ended()) uv[1] = static_cast<float>(line.number("the v of a texture coordinate"));
         for (float& value : uv) {
             if (std::isfinite(value)) continue;
-            tally_.note("repair.non_finite", "a texture coordinate is not finite; it was made 0", line.where());
+            tally_.note("repair.non_finite", "a texture coordinate is not finite; it was made 0",
+                        line.where());
             value = 0;
         }
         file_.uvs.push_back(uv);

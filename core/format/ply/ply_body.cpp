@@ -155,7 +155,8 @@ class BodyReader {
 
     float finite_uv(float value) {
         if (std::isfinite(value)) return value;
-        tally_.note("repair.non_finite", "a texture coordinate is not finite; it was made 0", source_.where());
+        tally_.note("repair.non_finite", "a texture coordinate is not finite; it was made 0",
+                    source_.where());
         return 0;
     }
 
