@@ -26,8 +26,7 @@ bool gives_target(const Algorithm& algorithm, const OptimizeOptions& options) {
 }
 
 double scale_of(const std::vector<Transform>& instances) {
-    double largest = 0;
-    for (const Transform& world : instances) largest = std::max(largest, largest_scale(world));
+    const double largest = largest_scale(instances);
     return largest > 0 ? largest : 1;
 }
 

@@ -1,6 +1,8 @@
 #include "core/scene/instance.h"
 
+#include <array>
 #include <cstddef>
+#include <limits>
 
 namespace coppice {
 
@@ -69,16 +71,29 @@ Bounds scene_bounds(const Scene& scene, std::span<const Instance> instances) {
         return inner.min.x >= outer.min.x && inner.min.y >= outer.min.y && inner.min.z >= outer.min.z &&
                inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z;
     };
-    Bounds box;
-    for (const Instance& instance : instances) {  // a point of each: most of the box, at once
-        const auto& positions = scene.meshes[instance.mesh].positions;
-        if (!positions.empty()) box.extend(instance.world.point(to_double(positions.front())));
-    }
-    for (const Instance& instance : instances) {
-        if (is_inside(transform_bounds(instance.world, local[instance.mesh]), box)) continue;
+    const auto extend_exactly = [&](Bounds& box, const Instance& instance) {
         for (const Vec3f& position : scene.meshes[instance.mesh].positions) {
             box.extend(instance.world.point(to_double(position)));
         }
+    };
+    std::vector<Bounds> boxes;          // of each instance's corners: never too small
+    std::array<size_t, 6> outermost{};  // by those, for each side
+    std::array<double, 6> farthest{};
+    farthest.fill(-std::numeric_limits<double>::infinity());
+    for (size_t i = 0; i < instances.size(); ++i) {
+        const Bounds& b = boxes.emplace_back(transform_bounds(instances[i].world, local[instances[i].mesh]));
+        const std::array<double, 6> reach = {-b.min.x, -b.min.y, -b.min.z, b.max.x, b.max.y, b.max.z};
+        for (size_t side = 0; side < 6; ++side) {
+            if (!(reach[side] > farthest[side])) continue;
+            farthest[side] = reach[side];
+            outermost[side] = i;
+        }
+    }
+    Bounds box;
+    if (instances.empty()) return box;
+    for (const size_t i : outermost) extend_exactly(box, instances[i]);
+    for (size_t i = 0; i < instances.size(); ++i) {
+        if (!is_inside(boxes[i], box)) extend_exactly(box, instances[i]);
     }
     return box;
 }

@@ -125,6 +125,34 @@ double largest_scale(const Transform& transform) {
     return Eigen::JacobiSVD<Eigen::Matrix3d>(linear).singularValues()(0);
 }
 
+namespace {
+
+// Never below the square of the largest singular value, and equal to it where the map scales uniformly: with
+// B = L'L, the eigenvalues of B differ from their mean by at most sqrt(2/3) |B - mean I| (Frobenius norm).
+double squared_scale_bound(const Transform& transform) {
+    const auto& m = transform.m;
+    const Vec3d x = {m[0], m[4], m[8]}, y = {m[1], m[5], m[9]}, z = {m[2], m[6], m[10]};
+    const double xx = dot(x, x), yy = dot(y, y), zz = dot(z, z), xy = dot(x, y), yz = dot(y, z),
+                 zx = dot(z, x);
+    const double mean = (xx + yy + zz) / 3;
+    const auto square = [](double v) { return v * v; };
+    const double off = square(xx - mean) + square(yy - mean) + square(zz - mean) +
+                       2 * (square(xy) + square(yz) + square(zx));
+    return mean + std::sqrt(2.0 / 3 * off);
+}
+
+}  // namespace
+
+double largest_scale(std::span<const Transform> transforms) {
+    double largest = 0;
+    for (const Transform& transform : transforms) {
+        if (squared_scale_bound(transform) > largest * largest * (1 + 1e-12)) {
+            largest = std::max(largest, largest_scale(transform));
+        }
+    }
+    return largest;
+}
+
 Vec3d transform_normal(const Transform& transform, Vec3d normal) {
     const auto rows = cofactor_rows(transform);
     // cofactor = det * L^-T: mirrored maps turn it around, which the sign undoes.

@@ -31,6 +31,8 @@ std::array<double, 16> to_column_major(const Transform& transform);
 
 double determinant(const Transform& transform);    // of the linear part; < 0 mirrors
 double largest_scale(const Transform& transform);  // largest singular value of the linear part
+// The largest of them; 0 for none. Much cheaper than asking each, which matters for thousands of instances.
+double largest_scale(std::span<const Transform> transforms);
 // Normals transform by the inverse transpose of the linear part; unit length, or zero where that is singular.
 Vec3d transform_normal(const Transform& transform, Vec3d normal);
 Bounds transform_bounds(const Transform& transform, const Bounds& box);  // box of the eight corners

@@ -100,6 +100,22 @@ TEST(PlanTargets, knows_a_scale_for_meshes_that_stand_nowhere) {
     EXPECT_GT(*targets_of(scene, {.error = 0.01})[0].error_model_units, 0);
 }
 
+// The box of a scene skips most instances; here each is looked at.
+TEST(SceneBounds, are_exact_for_instances_of_every_kind) {
+    for (const char* name : {"forest", "bunny13", "cad"}) {
+        const Scene scene = make_sample(name, {.scale = 0.2});
+        Bounds every_point;
+        for (const Instance& instance : instances(scene)) {
+            for (const Vec3f& position : scene.meshes[instance.mesh].positions) {
+                every_point.extend(instance.world.point(to_double(position)));
+            }
+        }
+        const Bounds box = scene_bounds(scene);
+        EXPECT_EQ(box.min, every_point.min) << name;
+        EXPECT_EQ(box.max, every_point.max) << name;
+    }
+}
+
 ErrorCode refused(const OptimizeOptions& options) {
     try {
         validate(options);

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace coppice {
 namespace {
@@ -72,6 +75,26 @@ TEST(Transform, largest_scale_is_the_largest_singular_value) {
     EXPECT_NEAR(largest_scale(stretch), 3, 1e-12);
     // For x' = x + y/2 the singular values are (sqrt(17) +- 1) / 4.
     EXPECT_NEAR(largest_scale(shear), (std::sqrt(17.0) + 1) / 4, 1e-12);
+}
+
+// The fast path against the plain one.
+TEST(Transform, largest_scale_of_many_is_the_largest_of_each) {
+    EXPECT_EQ(largest_scale(std::span<const Transform>{}), 0);
+    uint64_t state = 1;
+    const auto random = [&] {
+        state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+        return static_cast<double>(state >> 40) / (1 << 23) - 1;  // -1..1
+    };
+    std::vector<Transform> many;
+    double largest = 0;
+    for (int i = 0; i < 300; ++i) {
+        Transform transform = from_trs({}, {random(), random(), random(), random()}, {1 + random(), 1, 1});
+        if (i % 3 == 0) transform = transform * shear;
+        if (i % 5 == 0) transform = transform * mirror;
+        many.push_back(transform);
+        largest = std::max(largest, largest_scale(transform));
+        EXPECT_NEAR(largest_scale(many), largest, 1e-12);
+    }
 }
 
 class TransformMesh : public testing::TestWithParam<Transform> {};
