@@ -62,7 +62,8 @@ Answered answer(const Router& router, Request& request, Response& response, bool
         const Route& route = router.find(request, response);
         done.route = route.pattern;
         require(!only_always || route.always, ErrorCode::queue_full, "",
-                "the service has as many connections as it takes (http_connections); try again soon");
+                "the service has as many connections as it takes (http_connections, "
+                "http_connections_per_address); try again soon");
         route.handler(request, response);
     } catch (...) {
         done.internal_error = set_problem_of_current_exception(response, request.id);

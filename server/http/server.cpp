@@ -159,6 +159,10 @@ class Session final : private httplib::Server {
             run(result);
             return HandlerResponse::Handled;
         });
+        // httplib's own would send what() to the client; ours comes into play where not even a problem can be
+        // made.
+        set_exception_handler([](const httplib::Request&, httplib::Response& result,
+                                 const std::exception_ptr&) { result.status = 500; });
         set_post_routing_handler(
             [this](const httplib::Request&, httplib::Response& result) { finish_headers(result); });
     }

@@ -49,6 +49,10 @@ void Connection::send_bytes(std::string_view bytes) {
     }
 }
 
+void Connection::finish_sending() {
+    ::shutdown(socket_, SHUT_WR);
+}
+
 bool Connection::receive_more() {
     pollfd waiting{socket_, POLLIN, 0};
     if (::poll(&waiting, 1, patience_ms) <= 0) throw std::runtime_error("the service does not answer");

@@ -33,6 +33,7 @@ class Connection {
     Connection& operator=(const Connection&) = delete;
 
     void send_bytes(std::string_view bytes);
+    void finish_sending();                   // what was sent is all there will be
     Answer receive(bool head_only = false);  // one answer; interim ones (1xx) are skipped
     std::string receive_until_closed();      // all that comes
     bool is_closed_within(int timeout_ms);   // by the other side, with nothing more said

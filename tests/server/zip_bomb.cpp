@@ -23,7 +23,7 @@ void append_u32(std::string& out, uint32_t value) {
 std::string zip_bomb() {
     const std::string name = "scene.obj";
     const std::string megabyte(1 << 20, ' ');
-    constexpr uint32_t megabytes = 200;
+    constexpr uint32_t megabytes = 20;
     std::string packed(1 << 20, '\0');
     z_stream stream{};
     if (deflateInit2(&stream, 9, Z_DEFLATED, -15, 9, Z_DEFAULT_STRATEGY) != Z_OK)

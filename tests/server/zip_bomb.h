@@ -5,6 +5,6 @@
 
 namespace coppice::test {
 
-std::string zip_bomb();  // scene.obj: 200 MB of spaces in 200 KB
+std::string zip_bomb();  // scene.obj: 20 MB of spaces in 20 KB
 
 }  // namespace coppice::test
