@@ -31,6 +31,13 @@ std::optional<Bytes> read_file(const fs::path& path) {
          fmt::format("{} cannot be written: {}", path.string(), why));
 }
 
+bool write_bytes(const fs::path& path, ByteView bytes) {
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    return !file.fail();
+}
+
 size_t lay_out(const WrittenAsset& asset, const fs::path& path) {
     const std::vector<NamedFile> files = read_zip(asset.bytes, generous_limits(), {});
     const auto target = [&](const NamedFile& file) {
@@ -119,20 +126,22 @@ size_t write_asset_file(const WrittenAsset& asset, const fs::path& path) {
 }
 
 void write_file(const fs::path& path, ByteView bytes) {
-    fs::path partial = path;
-    partial += ".partial-" + std::to_string(getpid());
-    {
-        std::ofstream file(partial, std::ios::binary);
-        file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-        file.close();
-        if (!file) {
-            std::error_code ignored;
-            fs::remove(partial, ignored);
-            fail_writing(path, "is its folder there, and is there room?");
-        }
-    }
     std::error_code error;
-    fs::rename(partial, path, error);
+    // A device or a pipe is written to; only a file is replaced, and a link stays one.
+    const bool replaces = fs::is_regular_file(path, error) || !fs::exists(path, error);
+    const fs::path target =
+        fs::is_symlink(path, error) && replaces ? fs::weakly_canonical(path, error) : path;
+    if (!replaces) {
+        if (!write_bytes(path, bytes)) fail_writing(path, "it takes no bytes");
+        return;
+    }
+    fs::path partial = target;
+    partial += ".partial-" + std::to_string(getpid());
+    if (!write_bytes(partial, bytes)) {
+        fs::remove(partial, error);
+        fail_writing(path, "is its folder there, and is there room?");
+    }
+    fs::rename(partial, target, error);
     if (!error) return;
     const std::string why = error.message();
     fs::remove(partial, error);

@@ -108,6 +108,7 @@ class DiskBlobs::Writer final : public BlobWriter {
         const std::string sha256 = hash_.finish_hex();
         store_.publish(incoming_, sha256);
         committed_ = sha256;
+        file_ = Descriptor();  // a form may hold hundreds of committed writers
         return {sha256, written_};
     }
 
@@ -120,14 +121,28 @@ class DiskBlobs::Writer final : public BlobWriter {
     std::string committed_;
 };
 
+namespace {
+
+// Files only, and only those named by a number, as create() names them: the folder may be somebody's own by
+// mistake.
+void drop_half_written(const std::filesystem::path& incoming) {
+    for (const auto& entry : std::filesystem::directory_iterator(incoming)) {
+        const std::string file = entry.path().filename().string();
+        const bool is_number = file.find_first_not_of("0123456789") == std::string::npos;
+        if (is_number && entry.is_regular_file()) std::filesystem::remove(entry.path());
+    }
+}
+
+}  // namespace
+
 DiskBlobs::DiskBlobs(std::filesystem::path folder) : folder_(std::move(folder)) {
     try {
         std::filesystem::create_directories(folder_ / "blobs");
         lock_ = open_file(folder_ / "lock", O_RDWR | O_CREAT, "open the lock of the data directory");
         require(::flock(lock_.number(), LOCK_EX | LOCK_NB) == 0, ErrorCode::storage_failed, "data",
                 "the data directory {} is used by another process", folder_.string());
-        std::filesystem::remove_all(folder_ / "incoming");
         std::filesystem::create_directories(folder_ / "incoming");
+        drop_half_written(folder_ / "incoming");
     } catch (const std::filesystem::filesystem_error& error) {
         fail(
             ErrorCode::storage_failed, "data",

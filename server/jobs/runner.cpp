@@ -81,16 +81,20 @@ void Runner::run_job(Slot& slot, const Claim& claim) {
         slot.stop = std::stop_source();
         if (giving_back_) slot.stop.request_stop();
     }
-    log_.info("job started", {{"job", slot.id},
-                              {"kind", std::string(name(claim.record.job.kind))},
-                              {"attempt", static_cast<int64_t>(claim.record.job.attempts)}});
+    // Whatever throws below: a slot that stayed busy would have its lease renewed for ever.
+    const auto release = [](Slot* held) {
+        const std::scoped_lock lock(held->mutex);
+        held->busy = false;
+    };
+    const std::unique_ptr<Slot, decltype(release)> held(&slot, release);
     try {
+        log_.info("job started", {{"job", slot.id},
+                                  {"kind", std::string(name(claim.record.job.kind))},
+                                  {"attempt", static_cast<int64_t>(claim.record.job.attempts)}});
         conclude(slot, claim, work_(claim.record, watch(slot)));
     } catch (const std::exception& exception) {
         conclude_failure(slot, claim, exception);
     }
-    const std::scoped_lock lock(slot.mutex);
-    slot.busy = false;
 }
 
 void Runner::conclude(Slot& slot, const Claim& claim, Worked worked) {
