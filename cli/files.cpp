@@ -97,6 +97,7 @@ ReadLimits generous_limits() {
     constexpr uint64_t many = 4'000'000'000;
     return {.triangles = many / 3,
             .rendered_triangles = 1'000'000'000'000,
+            .instances = 100'000'000,
             .vertices = many,
             .json_bytes = many,
             .nodes = 50'000'000,

@@ -124,6 +124,7 @@ std::vector<Setting> make_settings() {
         number("http_connections_per_address", "connections of one address", 1, 10'000,
                COPPICE_MEMBER(http.connections_per_address)),
         number("triangles", "stored triangles of an asset", 1, huge, COPPICE_MEMBER(read.triangles)),
+        number("instances", "instances of an asset", 1, huge, COPPICE_MEMBER(read.instances)),
         number("rendered_triangles", "triangles of an asset after expansion", 1, huge,
                COPPICE_MEMBER(read.rendered_triangles)),
         number("vertices", "vertices of an asset", 1, huge, COPPICE_MEMBER(read.vertices)),
