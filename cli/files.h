@@ -1,6 +1,7 @@
 // Assets on disk.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>

@@ -1,6 +1,7 @@
 // Where the commands write: data to files or out, words to err.
 #pragma once
 
+#include <cstdint>
 #include <ostream>
 #include <string>
 

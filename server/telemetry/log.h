@@ -1,6 +1,7 @@
 // One JSON line an event, on standard error. What clients send can never break a line or forge another.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
