@@ -30,4 +30,11 @@ Transform rotation(Vec3d axis, double radians) {
     return from_trs({}, {axis.x * s, axis.y * s, axis.z * s, std::cos(radians / 2)}, {1, 1, 1});
 }
 
+void turn_y_up(Scene& scene) {
+    const Transform turn = {.m = {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0}};
+    const Transform back = {.m = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0}};
+    for (Mesh& mesh : scene.meshes) transform_mesh(turn, mesh);
+    for (Node& node : scene.nodes) node.local = turn * node.local * back;
+}
+
 }  // namespace coppice

@@ -75,6 +75,7 @@ Scene make_sample(std::string_view name, const SampleOptions& options) {
     const Sample& sample = find_sample(name);
     Scene scene = sample.make(size_of(sample.kind, options));
     scene.name = name;
+    turn_y_up(scene);
     return options.joined ? join(scene) : scene;
 }
 

@@ -29,9 +29,9 @@ struct SampleKind {
 // forest, city, bunny13, baked, cad.
 std::span<const SampleKind> sample_kinds();
 
-// The same options give the same scene. Meshes have NORMAL and TEXCOORD_0 with real seams, no degenerate
-// triangle, and are watertight unless their making says otherwise (grounds; the bunny has four small holes,
-// like the real one). Throws option_invalid for an unknown name or values out of range.
+// The same options give the same scene. y is up, as in glTF. Meshes have NORMAL and TEXCOORD_0 with real
+// seams, no degenerate triangle, and are watertight unless their making says otherwise (grounds; the bunny
+// has four small holes, like the real one). Throws option_invalid for an unknown name or values out of range.
 Scene make_sample(std::string_view name, const SampleOptions& options);
 
 }  // namespace coppice

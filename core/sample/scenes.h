@@ -29,6 +29,9 @@ uint32_t add_mesh(Scene& scene, Mesh mesh);  // -> its index
 uint32_t add_node(Scene& scene, std::string name, const Transform& local, std::optional<uint32_t> mesh = {},
                   std::optional<uint32_t> parent = {});
 
+// From z up, as the samples are drawn, to y up, as glTF has it and viewers of OBJ take it.
+void turn_y_up(Scene& scene);
+
 Transform translation(Vec3d by);
 Transform scaling(Vec3d by);
 Transform rotation(Vec3d axis, double radians);  // axis of unit length

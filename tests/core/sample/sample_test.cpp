@@ -150,6 +150,17 @@ TEST_P(EverySample, works_at_its_smallest) {
     for (const Mesh& mesh : scene.meshes) EXPECT_TRUE(is_consistent(mesh)) << mesh.name;
 }
 
+TEST(Sample, stands_with_y_up_as_gltf_is) {
+    for (const char* name : {"forest", "city", "bunny13", "cad"}) {
+        SCOPED_TRACE(name);
+        const Bounds box = scene_bounds(make_sample(name, {}));
+        const Vec3d size = box.max - box.min;
+        EXPECT_LT(size.y, 0.5 * size.x);
+        EXPECT_LT(size.y, 0.5 * size.z);
+        EXPECT_GT(box.max.y, -box.min.y);
+    }
+}
+
 TEST(Bunny, has_the_size_and_the_holes_of_the_real_small_bunny) {
     const Scene scene = make_sample("bunny13", {});
     ASSERT_EQ(scene.meshes.size(), 1U);
