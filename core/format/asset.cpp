@@ -97,7 +97,7 @@ ReadAsset read_file(const UploadedFile& file, Format format, const Resources& re
                     const ReadLimits& limits, const Watch& watch) {
     ReadAsset asset = {read_scene(file, format, resources, limits, watch), format};
     // The glTF reader has done so, and its warnings point into the document.
-    if (format != Format::glb && format != Format::gltf) clean_triangles(asset.scene);
+    if (format != Format::glb && format != Format::gltf) clean_triangles(asset.scene, watch);
     return asset;
 }
 

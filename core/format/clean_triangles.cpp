@@ -6,11 +6,11 @@
 
 namespace coppice {
 
-void clean_triangles(Scene& scene) {
+void clean_triangles(Scene& scene, const Watch& watch) {
     for (Mesh& mesh : scene.meshes) {
-        const CleanedTriangles cleaned = drop_degenerate_and_duplicate(mesh);
+        const CleanedTriangles cleaned = drop_degenerate_and_duplicate(mesh, watch);
         if (cleaned.degenerate + cleaned.duplicate == 0) continue;
-        drop_unused(mesh);
+        drop_unused(mesh, watch);
         const std::string where = fmt::format("mesh \"{}\"", mesh.name);
         if (cleaned.degenerate > 0)
             scene.warnings.push_back({"repair.degenerate_triangles",

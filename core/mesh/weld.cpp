@@ -4,7 +4,8 @@
 #include <array>
 #include <bit>
 #include <limits>
-#include <unordered_set>
+
+#include "core/base/watched_loop.h"
 
 namespace coppice {
 
@@ -27,13 +28,13 @@ uint32_t bits_of(float value) {
 // Numbers items 0..count by first occurrence among equals: result[i] is the group of i, groups ascend by
 // first member. An open-addressing table of item indices: one allocation, no keys.
 template <typename Hash, typename Equal>
-std::vector<uint32_t> group_equal(size_t count, Hash hash, Equal equal,
-                                  std::vector<uint32_t>& first_of_group) {
+std::vector<uint32_t> group_equal(size_t count, Hash hash, Equal equal, std::vector<uint32_t>& first_of_group,
+                                  const Watch& watch) {
     const size_t size = std::bit_ceil(count + count / 2 + 1);
     std::vector<uint32_t> table(size, none);
     std::vector<uint32_t> group(count);
     first_of_group.clear();
-    for (size_t i = 0; i < count; ++i) {
+    watched_loop(count, watch, [&](size_t i) {
         size_t at = hash(i) & (size - 1);
         while (table[at] != none && !equal(first_of_group[table[at]], i)) at = (at + 1) & (size - 1);
         if (table[at] == none) {
@@ -41,7 +42,7 @@ std::vector<uint32_t> group_equal(size_t count, Hash hash, Equal equal,
             first_of_group.push_back(static_cast<uint32_t>(i));
         }
         group[i] = table[at];
-    }
+    });
     return group;
 }
 
@@ -55,23 +56,29 @@ std::vector<Attribute*> streams(Mesh& mesh) {
     return all;
 }
 
-void keep_items(std::vector<float>& values, uint32_t components, const std::vector<uint32_t>& kept) {
-    std::vector<float> result(kept.size() * components);
-    for (size_t i = 0; i < kept.size(); ++i) {
-        std::copy_n(values.begin() + static_cast<ptrdiff_t>(size_t{kept[i]} * components), components,
-                    result.begin() + static_cast<ptrdiff_t>(i * components));
-    }
+// Item i of the result is the `components` values of item kept[i].
+template <typename T>
+void keep_items(std::vector<T>& values, size_t components, const std::vector<uint32_t>& kept,
+                const Watch& watch) {
+    std::vector<T> result(kept.size() * components);
+    watched_loop(kept.size(), watch, [&](size_t i) {
+        std::copy_n(values.data() + kept[i] * components, components, result.data() + i * components);
+    });
     values = std::move(result);
 }
 
-void keep_wedges(Mesh& mesh, const std::vector<uint32_t>& kept) {
-    std::vector<uint32_t> wedge_vertex(kept.size());
-    for (size_t i = 0; i < kept.size(); ++i) wedge_vertex[i] = mesh.wedge_vertex[kept[i]];
-    mesh.wedge_vertex = std::move(wedge_vertex);
-    for (Attribute* stream : streams(mesh)) keep_items(stream->values, stream->components, kept);
+void keep_wedges(Mesh& mesh, const std::vector<uint32_t>& kept, const Watch& watch) {
+    keep_items(mesh.wedge_vertex, 1, kept, watch);
+    for (Attribute* stream : streams(mesh)) keep_items(stream->values, stream->components, kept, watch);
 }
 
-void weld_vertices(Mesh& mesh) {
+void keep_triangles(Mesh& mesh, const std::vector<uint32_t>& kept, const Watch& watch) {
+    if (kept.size() == mesh.triangle_count()) return;
+    keep_items(mesh.triangles, 3, kept, watch);
+    keep_items(mesh.triangle_slot, 1, kept, watch);
+}
+
+void weld_vertices(Mesh& mesh, const Watch& watch) {
     const auto& positions = mesh.positions;
     std::vector<uint32_t> first;
     const std::vector<uint32_t> group = group_equal(
@@ -80,10 +87,8 @@ void weld_vertices(Mesh& mesh) {
             const uint64_t xy = uint64_t{bits_of(positions[i].x)} << 32 | bits_of(positions[i].y);
             return mix(mix(0, xy), bits_of(positions[i].z));
         },
-        [&](size_t a, size_t b) { return positions[a] == positions[b]; }, first);
-    std::vector<Vec3f> welded(first.size());
-    for (size_t i = 0; i < first.size(); ++i) welded[i] = positions[first[i]];
-    mesh.positions = std::move(welded);
+        [&](size_t a, size_t b) { return positions[a] == positions[b]; }, first, watch);
+    keep_items(mesh.positions, 1, first, watch);
     for (uint32_t& vertex : mesh.wedge_vertex) vertex = group[vertex];
 }
 
@@ -104,7 +109,7 @@ std::vector<uint32_t> slot_class_of_wedges(const Mesh& mesh) {
     return wedge_class;
 }
 
-void weld_wedges(Mesh& mesh) {
+void weld_wedges(Mesh& mesh, const Watch& watch) {
     const std::vector<Attribute*> all = streams(mesh);
     const std::vector<uint32_t> wedge_class = slot_class_of_wedges(mesh);
     std::vector<uint32_t> first;
@@ -127,77 +132,100 @@ void weld_wedges(Mesh& mesh) {
                        return std::equal(values + a * n, values + (a + 1) * n, values + b * n);
                    });
         },
-        first);
-    keep_wedges(mesh, first);
+        first, watch);
+    keep_wedges(mesh, first, watch);
     for (uint32_t& wedge : mesh.triangles) wedge = group[wedge];
 }
 
-struct TriangleHash {
-    size_t operator()(const std::array<uint32_t, 3>& t) const { return mix(mix(mix(0, t[0]), t[1]), t[2]); }
-};
+// Whether a morph target moves the corners of a triangle to different sides.
+bool is_morphed(const Mesh& mesh, size_t triangle) {
+    const uint32_t* wedge = mesh.triangles.data() + 3 * triangle;
+    const auto moves_apart = [wedge](const Attribute& deltas) {
+        const size_t n = deltas.components;
+        const float* first = deltas.values.data() + wedge[0] * n;
+        return !std::equal(first, first + n, deltas.values.data() + wedge[1] * n) ||
+               !std::equal(first, first + n, deltas.values.data() + wedge[2] * n);
+    };
+    return std::any_of(mesh.morph_targets.begin(), mesh.morph_targets.end(), [&](const MorphTarget& target) {
+        return std::any_of(target.deltas.begin(), target.deltas.end(), [&](const Attribute& deltas) {
+            return deltas.name == "POSITION" && moves_apart(deltas);
+        });
+    });
+}
 
-// The same for the three rotations of a triangle, another for its mirror image.
-std::array<uint32_t, 3> canonical(std::array<uint32_t, 3> t) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    return t;
+// A triangle that is flat at rest may be opened by a morph target, an eyelid say.
+bool is_degenerate(const Mesh& mesh, size_t triangle) {
+    const uint32_t u = mesh.corner_vertex(triangle, 0), v = mesh.corner_vertex(triangle, 1),
+                   w = mesh.corner_vertex(triangle, 2);
+    if (u == v || v == w || w == u) return true;
+    const Vec3d a = to_double(mesh.positions[u]), b = to_double(mesh.positions[v]),
+                c = to_double(mesh.positions[w]);
+    return squared_length(cross(b - a, c - a)) == 0 && !is_morphed(mesh, triangle);
+}
+
+size_t drop_degenerate(Mesh& mesh, const Watch& watch) {
+    std::vector<uint32_t> kept;
+    kept.reserve(mesh.triangle_count());
+    watched_loop(mesh.triangle_count(), watch, [&](size_t t) {
+        if (!is_degenerate(mesh, t)) kept.push_back(static_cast<uint32_t>(t));
+    });
+    const size_t dropped = mesh.triangle_count() - kept.size();
+    keep_triangles(mesh, kept, watch);
+    return dropped;
+}
+
+// The slot and the wedges, which are the same for the three rotations of a triangle.
+std::array<uint32_t, 4> identity(const Mesh& mesh, size_t triangle) {
+    const uint32_t* w = mesh.triangles.data() + 3 * triangle;
+    const size_t least = w[0] < w[1] ? (w[0] < w[2] ? 0 : 2) : (w[1] < w[2] ? 1 : 2);
+    return {mesh.triangle_slot[triangle], w[least], w[(least + 1) % 3], w[(least + 2) % 3]};
+}
+
+size_t drop_duplicate(Mesh& mesh, const Watch& watch) {
+    std::vector<uint32_t> first;
+    group_equal(
+        mesh.triangle_count(),
+        [&](size_t t) {
+            uint64_t hash = 0;
+            for (const uint32_t part : identity(mesh, t)) hash = mix(hash, part);
+            return hash;
+        },
+        [&](size_t a, size_t b) { return identity(mesh, a) == identity(mesh, b); }, first, watch);
+    const size_t dropped = mesh.triangle_count() - first.size();
+    keep_triangles(mesh, first, watch);
+    return dropped;
+}
+
+// What is used, in the old order; turns every index into the new one.
+std::vector<uint32_t> number_used(std::vector<uint32_t>& indices, size_t count, const Watch& watch) {
+    std::vector<uint32_t> number(count, none);
+    std::vector<uint32_t> used;
+    watched_loop(indices.size(), watch, [&](size_t i) { number[indices[i]] = 0; });
+    watched_loop(count, watch, [&](size_t i) {
+        if (number[i] == none) return;
+        number[i] = static_cast<uint32_t>(used.size());
+        used.push_back(static_cast<uint32_t>(i));
+    });
+    watched_loop(indices.size(), watch, [&](size_t i) { indices[i] = number[indices[i]]; });
+    return used;
 }
 
 }  // namespace
 
-void weld(Mesh& mesh) {
-    weld_vertices(mesh);
-    weld_wedges(mesh);
+void weld(Mesh& mesh, const Watch& watch) {
+    weld_vertices(mesh, watch);
+    weld_wedges(mesh, watch);
 }
 
-void drop_unused(Mesh& mesh) {
-    std::vector<uint32_t> new_wedge(mesh.wedge_count(), none);
-    for (const uint32_t wedge : mesh.triangles) new_wedge[wedge] = 0;
-    std::vector<uint32_t> kept_wedges;
-    for (uint32_t w = 0; w < new_wedge.size(); ++w) {
-        if (new_wedge[w] == none) continue;
-        new_wedge[w] = static_cast<uint32_t>(kept_wedges.size());
-        kept_wedges.push_back(w);
-    }
-    keep_wedges(mesh, kept_wedges);
-    for (uint32_t& wedge : mesh.triangles) wedge = new_wedge[wedge];
-
-    std::vector<uint32_t> new_vertex(mesh.vertex_count(), none);
-    for (const uint32_t vertex : mesh.wedge_vertex) new_vertex[vertex] = 0;
-    std::vector<Vec3f> kept_positions;
-    for (size_t v = 0; v < new_vertex.size(); ++v) {
-        if (new_vertex[v] == none) continue;
-        new_vertex[v] = static_cast<uint32_t>(kept_positions.size());
-        kept_positions.push_back(mesh.positions[v]);
-    }
-    mesh.positions = std::move(kept_positions);
-    for (uint32_t& vertex : mesh.wedge_vertex) vertex = new_vertex[vertex];
+void drop_unused(Mesh& mesh, const Watch& watch) {
+    keep_wedges(mesh, number_used(mesh.triangles, mesh.wedge_count(), watch), watch);
+    keep_items(mesh.positions, 1, number_used(mesh.wedge_vertex, mesh.vertex_count(), watch), watch);
 }
 
-CleanedTriangles drop_degenerate_and_duplicate(Mesh& mesh) {
+CleanedTriangles drop_degenerate_and_duplicate(Mesh& mesh, const Watch& watch) {
     CleanedTriangles cleaned;
-    std::unordered_set<std::array<uint32_t, 3>, TriangleHash> seen;
-    seen.reserve(mesh.triangle_count());
-    size_t kept = 0;
-    for (size_t t = 0; t < mesh.triangle_count(); ++t) {
-        const std::array<uint32_t, 3> v = {mesh.corner_vertex(t, 0), mesh.corner_vertex(t, 1),
-                                           mesh.corner_vertex(t, 2)};
-        const Vec3d a = to_double(mesh.positions[v[0]]);
-        const Vec3d b = to_double(mesh.positions[v[1]]);
-        const Vec3d c = to_double(mesh.positions[v[2]]);
-        const bool repeats_vertex = v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
-        if (repeats_vertex || squared_length(cross(b - a, c - a)) == 0) {
-            ++cleaned.degenerate;
-        } else if (!seen.insert(canonical(v)).second) {
-            ++cleaned.duplicate;
-        } else {
-            std::copy_n(mesh.triangles.begin() + static_cast<ptrdiff_t>(3 * t), 3,
-                        mesh.triangles.begin() + static_cast<ptrdiff_t>(3 * kept));
-            mesh.triangle_slot[kept] = mesh.triangle_slot[t];
-            ++kept;
-        }
-    }
-    mesh.triangles.resize(3 * kept);
-    mesh.triangle_slot.resize(kept);
+    cleaned.degenerate = drop_degenerate(mesh, watch);
+    cleaned.duplicate = drop_duplicate(mesh, watch);
     return cleaned;
 }
 

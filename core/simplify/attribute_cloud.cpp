@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/watched_loop.h"
+
 namespace coppice {
 
 namespace {
@@ -16,12 +18,14 @@ double area(const CollapseMesh& mesh, uint32_t triangle) {
 }
 
 // Area of the triangles that use each wedge.
-std::vector<double> wedge_areas(const CollapseMesh& mesh) {
+std::vector<double> wedge_areas(const CollapseMesh& mesh, const Watch& watch) {
     std::vector<double> areas(mesh.wedge_count(), 0.0);
-    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-        if (!mesh.is_live_triangle(t)) continue;
-        for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) areas[mesh.corner_wedge(c)] += area(mesh, t);
-    }
+    watched_loop(mesh.triangle_count(), watch, [&](size_t i) {
+        const auto t = static_cast<uint32_t>(i);
+        if (!mesh.is_live_triangle(t)) return;
+        const double size = area(mesh, t);
+        for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) areas[mesh.corner_wedge(c)] += size;
+    });
     return areas;
 }
 
@@ -31,11 +35,12 @@ bool has_attribute(const Mesh& source, uint32_t slot, size_t attribute) {
 }
 
 // sqrt(sum of areas in space / sum of areas in the UV plane); 0 where the UV plane has none.
-double uv_length(const CollapseMesh& mesh, const Mesh& source, size_t attribute) {
+double uv_length(const CollapseMesh& mesh, const Mesh& source, size_t attribute, const Watch& watch) {
     double in_space = 0, in_plane = 0;
     const Attribute& uv = source.attributes[attribute];
-    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-        if (!mesh.is_live_triangle(t) || !has_attribute(source, source.triangle_slot[t], attribute)) continue;
+    watched_loop(mesh.triangle_count(), watch, [&](size_t i) {
+        const auto t = static_cast<uint32_t>(i);
+        if (!mesh.is_live_triangle(t) || !has_attribute(source, source.triangle_slot[t], attribute)) return;
         const auto value = [&](uint32_t corner, uint32_t axis) {
             return double{uv.values[size_t{source.triangles[3 * t + corner]} * uv.components + axis]};
         };
@@ -43,7 +48,7 @@ double uv_length(const CollapseMesh& mesh, const Mesh& source, size_t attribute)
         const double bx = value(2, 0) - value(0, 0), by = value(2, 1) - value(0, 1);
         in_space += area(mesh, t);
         in_plane += 0.5 * std::abs(ax * by - ay * bx);
-    }
+    });
     const double scale = std::sqrt(in_space / in_plane);
     return std::isfinite(scale) ? scale : 0;
 }
@@ -57,8 +62,8 @@ Role role(const Attribute& a) {
     return Role::none;
 }
 
-double scale_of(const CollapseMesh& mesh, const Mesh& source, size_t attribute,
-                const AttributeScales& scales) {
+double scale_of(const CollapseMesh& mesh, const Mesh& source, size_t attribute, const AttributeScales& scales,
+                const Watch& watch) {
     const double by_diagonal = default_scale_of_diagonal * mesh.box().diagonal();
     switch (role(source.attributes[attribute])) {
         case Role::normal:
@@ -67,7 +72,7 @@ double scale_of(const CollapseMesh& mesh, const Mesh& source, size_t attribute,
             return scales.color.value_or(by_diagonal);
         case Role::uv: {
             if (scales.uv) return *scales.uv;
-            const double by_area = uv_length(mesh, source, attribute);
+            const double by_area = uv_length(mesh, source, attribute, watch);
             return by_area > 0 ? by_area : by_diagonal;
         }
         case Role::none:
@@ -78,8 +83,8 @@ double scale_of(const CollapseMesh& mesh, const Mesh& source, size_t attribute,
 
 }  // namespace
 
-AttributeClouds::AttributeClouds(const CollapseMesh& mesh, const Mesh& source,
-                                 const AttributeScales& scales) {
+AttributeClouds::AttributeClouds(const CollapseMesh& mesh, const Mesh& source, const AttributeScales& scales,
+                                 const Watch& watch) {
     std::vector<size_t> taken;
     for (size_t i = 0; i < source.attributes.size(); ++i) {
         if (role(source.attributes[i]) == Role::none) continue;
@@ -89,9 +94,10 @@ AttributeClouds::AttributeClouds(const CollapseMesh& mesh, const Mesh& source,
     if (taken.empty()) return;
     values_.resize(size_t{mesh.wedge_count()} * value_stride_);
     clouds_.resize(size_t{mesh.wedge_count()} * cloud_stride_);
-    const std::vector<double> areas = wedge_areas(mesh);
+    const std::vector<double> areas = wedge_areas(mesh, watch);
     for (size_t i = 0; i < taken.size(); ++i) {
-        fill(mesh, source, taken[i], channels_[i], scale_of(mesh, source, taken[i], scales), areas);
+        fill(mesh, source, taken[i], channels_[i], scale_of(mesh, source, taken[i], scales, watch), areas,
+             watch);
     }
 }
 
@@ -103,10 +109,12 @@ void AttributeClouds::add_channel(const Attribute& attribute) {
 }
 
 void AttributeClouds::fill(const CollapseMesh& mesh, const Mesh& source, size_t attribute,
-                           const Channel& channel, double scale, std::span<const double> wedge_areas) {
+                           const Channel& channel, double scale, std::span<const double> wedge_areas,
+                           const Watch& watch) {
     const std::vector<float>& from = source.attributes[attribute].values;
     const uint32_t n = channel.components;
-    for (uint32_t w = 0; w < mesh.wedge_count(); ++w) {
+    watched_loop(mesh.wedge_count(), watch, [&](size_t i) {
+        const auto w = static_cast<uint32_t>(i);
         double* value = values_.data() + w * value_stride_ + channel.value_offset;
         double* cloud = clouds_.data() + w * cloud_stride_ + channel.cloud_offset;
         const double weight = has_attribute(source, mesh.wedge_slot(w), attribute) ? wedge_areas[w] : 0.0;
@@ -118,7 +126,7 @@ void AttributeClouds::fill(const CollapseMesh& mesh, const Mesh& source, size_t 
         }
         cloud[0] = weight;
         cloud[n + 1] = weight * squared;
-    }
+    });
 }
 
 double AttributeClouds::squared_error(uint32_t from, uint32_t at, uint32_t channel) const {

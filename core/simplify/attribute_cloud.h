@@ -28,7 +28,8 @@ struct AttributeScales {
 class AttributeClouds {
   public:
     // Takes NORMAL, TEXCOORD_n and COLOR_n. A wedge whose slot lacks an attribute gets an empty cloud for it.
-    AttributeClouds(const CollapseMesh& mesh, const Mesh& source, const AttributeScales& scales);
+    AttributeClouds(const CollapseMesh& mesh, const Mesh& source, const AttributeScales& scales,
+                    const Watch& watch = {});
 
     uint32_t channels() const { return static_cast<uint32_t>(channels_.size()); }  // one per attribute
 
@@ -54,7 +55,7 @@ class AttributeClouds {
     }
     void add_channel(const Attribute& attribute);
     void fill(const CollapseMesh& mesh, const Mesh& source, size_t attribute, const Channel& channel,
-              double scale, std::span<const double> wedge_areas);
+              double scale, std::span<const double> wedge_areas, const Watch& watch);
 
     std::vector<Channel> channels_;
     size_t value_stride_ = 0, cloud_stride_ = 0;

@@ -2,18 +2,19 @@
 
 #include <cassert>
 
+#include "core/base/watched_loop.h"
 #include "core/mesh/weld.h"
 #include "core/simplify/wedge_charts.h"
 
 namespace coppice {
 
-CollapseMesh::CollapseMesh(const Mesh& source)
+CollapseMesh::CollapseMesh(const Mesh& source, const Watch& watch)
     : corner_vertex_(source.triangles.size(), no_index),
       after_(source.triangles.size(), no_index),
       before_(source.triangles.size(), no_index),
       first_corner_(source.vertex_count(), no_index),
       valence_(source.vertex_count(), 0) {
-    WedgeCharts charts = wedge_charts(source);
+    WedgeCharts charts = wedge_charts(source, watch);
     corner_wedge_ = std::move(charts.corner_wedge);
     wedge_begin_ = std::move(charts.begin);
     wedge_slot_ = std::move(charts.slot);
@@ -21,15 +22,16 @@ CollapseMesh::CollapseMesh(const Mesh& source)
     wedge_chart_ = std::move(charts.chart);
 
     // Backwards, so that every list ascends.
-    for (size_t t = source.triangle_count(); t-- > 0;) {
+    watched_loop(source.triangle_count(), watch, [&](size_t i) {
+        const size_t t = source.triangle_count() - 1 - i;
         const uint32_t a = source.corner_vertex(t, 0), b = source.corner_vertex(t, 1),
                        c = source.corner_vertex(t, 2);
-        if (a == b || b == c || c == a) continue;
+        if (a == b || b == c || c == a) return;
         const auto corner = static_cast<uint32_t>(3 * t);
         corner_vertex_[corner] = a, corner_vertex_[corner + 1] = b, corner_vertex_[corner + 2] = c;
         for (uint32_t k = 3; k-- > 0;) link(corner + k);
         ++live_triangles_;
-    }
+    });
 
     positions_.reserve(source.vertex_count());
     for (uint32_t v = 0; v < source.vertex_count(); ++v) {
@@ -90,18 +92,18 @@ void CollapseMesh::collapse(uint32_t removed, uint32_t kept, const std::vector<u
     }
 }
 
-Mesh CollapseMesh::extract(const Mesh& source) const {
+Mesh CollapseMesh::extract(const Mesh& source, const Watch& watch) const {
     Mesh mesh = source;
     mesh.triangles.clear();
     mesh.triangle_slot.clear();
-    for (uint32_t t = 0; t < triangle_count(); ++t) {
-        if (!is_live_triangle(t)) continue;
-        for (uint32_t corner = 3 * t; corner < 3 * t + 3; ++corner) {
+    watched_loop(triangle_count(), watch, [&](size_t t) {
+        if (!is_live_triangle(static_cast<uint32_t>(t))) return;
+        for (size_t corner = 3 * t; corner < 3 * t + 3; ++corner) {
             mesh.triangles.push_back(wedge_source_[corner_wedge_[corner]]);
         }
         mesh.triangle_slot.push_back(source.triangle_slot[t]);
-    }
-    drop_unused(mesh);
+    });
+    drop_unused(mesh, watch);
     return mesh;
 }
 

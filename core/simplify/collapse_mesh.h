@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/watch.h"
 #include "core/mesh/bounds.h"
 #include "core/mesh/mesh.h"
 
@@ -20,7 +21,7 @@ inline constexpr uint32_t no_index = UINT32_MAX;
 class CollapseMesh {
   public:
     // Triangles with two corners at one vertex are dead from the start.
-    explicit CollapseMesh(const Mesh& source);
+    explicit CollapseMesh(const Mesh& source, const Watch& watch = {});
 
     uint32_t vertex_count() const { return static_cast<uint32_t>(positions_.size()); }  // live or not
     uint32_t wedge_count() const { return static_cast<uint32_t>(wedge_source_.size()); }
@@ -59,7 +60,7 @@ class CollapseMesh {
     void collapse(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map);
 
     // The source with the live triangles and what they use.
-    Mesh extract(const Mesh& source) const;
+    Mesh extract(const Mesh& source, const Watch& watch = {}) const;
 
   private:
     void link(uint32_t corner);

@@ -1,6 +1,10 @@
 #include "core/simplify/collapse_rules.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/base/watched_loop.h"
 
 namespace coppice {
 
@@ -8,6 +12,9 @@ namespace {
 
 constexpr double least_cosine_at_once = 0.25;
 constexpr double least_cosine_since_start = 0.2;
+// Mean over the corners, to where the surface faced there. Thin triangles across a crease lie near the
+// surface, but may face anywhere.
+constexpr double least_cosine_to_corners = 0.25;
 // A triangle is degenerate when twice its area is below this part of its longest edge squared: in single
 // precision its normal would mean nothing.
 constexpr double degenerate_aspect = 1e-6;
@@ -23,22 +30,49 @@ Vec3d area_normal(Vec3d a, Vec3d b, Vec3d c) {
     return cross(b - a, c - a);
 }
 
+double angle(Vec3d from, Vec3d a, Vec3d b) {
+    return std::acos(std::clamp(dot(normalized(a - from), normalized(b - from)), -1.0, 1.0));
+}
+
+// Per vertex the mean of its triangles' normals, weighted by their angles there (the pseudo-normal of
+// Baerentzen and Aanaes 2005, which tells inside from outside at any edge): unit, or zero where sheets lie
+// back to back.
+std::vector<Vec3f> facing(const CollapseMesh& mesh, std::span<const Vec3f> normals, const Watch& watch) {
+    std::vector<Vec3f> result(mesh.vertex_count());
+    watched_loop(mesh.vertex_count(), watch, [&](size_t v) {
+        const auto vertex = static_cast<uint32_t>(v);
+        Vec3d sum;
+        double angles = 0;
+        for (uint32_t c = mesh.first_corner(vertex); c != no_index; c = mesh.corner_after(c)) {
+            const double weight =
+                angle(mesh.position(vertex), mesh.position(mesh.corner_vertex(CollapseMesh::next_corner(c))),
+                      mesh.position(mesh.corner_vertex(CollapseMesh::previous_corner(c))));
+            sum = sum + to_double(normals[c / 3]) * weight;
+            angles += weight;
+        }
+        if (length(sum) > 1e-6 * angles) result[v] = to_float(normalized(sum));
+    });
+    return result;
+}
+
 }  // namespace
 
-CollapseRules::CollapseRules(const CollapseMesh& mesh, std::vector<VertexKind> kinds)
+CollapseRules::CollapseRules(const CollapseMesh& mesh, std::vector<VertexKind> kinds, const Watch& watch)
     : mesh_(mesh),
       kinds_(std::move(kinds)),
       first_normals_(mesh.triangle_count()),
       around_removed_(mesh.vertex_count()),
       around_kept_(mesh.vertex_count()) {
-    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-        if (!mesh.is_live_triangle(t)) continue;
+    watched_loop(mesh.triangle_count(), watch, [&](size_t i) {
+        const auto t = static_cast<uint32_t>(i);
+        if (!mesh.is_live_triangle(t)) return;
         const Vec3d a = mesh.position(mesh.corner_vertex(3 * t)),
                     b = mesh.position(mesh.corner_vertex(3 * t + 1)),
                     c = mesh.position(mesh.corner_vertex(3 * t + 2));
         const Vec3d normal = area_normal(a, b, c);
         if (!is_degenerate(a, b, c, normal)) first_normals_[t] = to_float(normalized(normal));
-    }
+    });
+    facing_ = facing(mesh, first_normals_, watch);
 }
 
 bool CollapseRules::kinds_allow(uint32_t removed, uint32_t kept, const Neighbours& around) const {
@@ -118,6 +152,17 @@ bool CollapseRules::duplicates(uint32_t removed, uint32_t kept) {
     return false;
 }
 
+// Mean cosine between a normal of any length and where the surface faced at the corners that know.
+double CollapseRules::agreement_with_corners(Vec3d normal, const std::array<uint32_t, 3>& corners) const {
+    double sum = 0, known = 0;
+    for (const uint32_t corner : corners) {
+        const Vec3f facing = facing_[corner];
+        sum += dot(to_double(facing), normal);
+        known += facing == Vec3f{} ? 0 : 1;
+    }
+    return known > 0 ? sum / (known * length(normal)) : 1;
+}
+
 bool CollapseRules::keeps_orientation(uint32_t removed, uint32_t kept) const {
     const Vec3d from = mesh_.position(removed), to = mesh_.position(kept);
     for (uint32_t c = mesh_.first_corner(removed); c != no_index; c = mesh_.corner_after(c)) {
@@ -137,6 +182,11 @@ bool CollapseRules::keeps_orientation(uint32_t removed, uint32_t kept) const {
             return false;
         }
         if (first != Vec3f{} && dot(to_double(first), after) < least_cosine_since_start * size) return false;
+        const double agreement = agreement_with_corners(after, {kept, next, previous});
+        if (agreement < least_cosine_to_corners &&
+            agreement < agreement_with_corners(before, {removed, next, previous})) {
+            return false;
+        }
     }
     return true;
 }

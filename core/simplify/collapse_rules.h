@@ -1,6 +1,7 @@
 // Whether moving all triangles of one vertex to a neighbour keeps the surface sound.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -25,7 +26,7 @@ inline constexpr uint32_t largest_removable_valence = 128;
 
 class CollapseRules {
   public:
-    CollapseRules(const CollapseMesh& mesh, std::vector<VertexKind> kinds);
+    CollapseRules(const CollapseMesh& mesh, std::vector<VertexKind> kinds, const Watch& watch = {});
 
     // Whether kinds allow the collapse along this edge. `around` holds the neighbours of `removed`, if
     // reads_neighbours(removed).
@@ -37,18 +38,21 @@ class CollapseRules {
 
     // Link condition (Dey and others 1999), no duplicate triangle, no edge with more triangles than before
     // where that makes it non-manifold, nothing dropped; no triangle turned by more than about 75 degrees,
-    // neither now nor since the start, none made degenerate. The edge exists.
+    // neither now nor since the start, nor away from what the surface faced at its corners; none made
+    // degenerate. The edge exists.
     Refusal check(uint32_t removed, uint32_t kept);
 
   private:
     bool keeps_topology(uint32_t removed, uint32_t kept);
     bool duplicates(uint32_t removed, uint32_t kept);
     bool keeps_orientation(uint32_t removed, uint32_t kept) const;
+    double agreement_with_corners(Vec3d normal, const std::array<uint32_t, 3>& corners) const;
     uint32_t edge_uses(uint32_t vertex, uint32_t other, bool ring_gathered) const;
 
     const CollapseMesh& mesh_;
     std::vector<VertexKind> kinds_;
     std::vector<Vec3f> first_normals_;  // per triangle at the start; unit, zero when degenerate
+    std::vector<Vec3f> facing_;         // per vertex, where the surface faced at the start; see facing()
     Neighbours around_removed_, around_kept_;
     std::vector<uint32_t> shared_;  // per neighbour of `removed`: triangles that also hold `kept`
 };

@@ -29,13 +29,14 @@ EndPointCollapse::EndPointCollapse(const Mesh& source, const Target& target, con
     : source_(source),
       target_(target),
       max_geometric_error_(options.max_geometric_error),
-      mesh_(source),
+      mesh_(source, watch),
       features_(features_for(mesh_, options, watch)),
-      clouds_(mesh_, source, options.scales),
-      errors_(mesh_, features_.edges, clouds_, options.weights),
-      rules_(mesh_, features_.kinds),
+      clouds_(mesh_, source, options.scales, watch),
+      errors_(mesh_, features_.edges, clouds_, options.weights, InstanceMetric(options.instances), watch),
+      rules_(mesh_, features_.kinds, watch),
       bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal()),
       lines_(mesh_, features_, line_tolerance_of_diagonal * mesh_.box().diagonal()),
+      uvs_(mesh_, source, watch),
       deviation_(mesh_),
       wedge_map_(mesh_, clouds_),
       around_(mesh_.vertex_count()),
@@ -95,6 +96,7 @@ Refusal EndPointCollapse::check(uint32_t removed, uint32_t kept) {
     if (!wedge_map_.find(removed, kept)) return Refusal::locked;
     if (!bounds_.may_remove(removed)) return Refusal::bounds;
     if (!lines_.may_remove(removed, kept)) return Refusal::topology;
+    if (!uvs_.may_collapse(removed, kept, wedge_map_.wedges())) return Refusal::topology;
     const Refusal refusal = rules_.check(removed, kept);
     if (refusal != Refusal::none) return refusal;
     next_deviation_ = deviation_.after(removed, kept);
@@ -130,8 +132,8 @@ StopReason EndPointCollapse::reason_for_refusals() const {
     return count(Refusal::topology) >= count(Refusal::bounds) ? StopReason::topology : StopReason::bounds;
 }
 
-Simplified EndPointCollapse::finish(StopReason reason) const {
-    return {.mesh = mesh_.extract(source_),
+Simplified EndPointCollapse::finish(StopReason reason, const Watch& watch) const {
+    return {.mesh = mesh_.extract(source_, watch),
             .error_model_units = deviation_.largest(),
             .certified = false,
             .stop_reason = reason};

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "core/base/watch.h"
 #include "core/simplify/algorithm.h"
@@ -20,6 +21,7 @@
 #include "core/simplify/line_guard.h"
 #include "core/simplify/neighbours.h"
 #include "core/simplify/unified_error.h"
+#include "core/simplify/uv_guard.h"
 #include "core/simplify/wedge_map.h"
 
 namespace coppice {
@@ -28,6 +30,7 @@ struct EndPointOptions {
     PlaneWeights weights = PlaneWeights::area;
     AttributeScales scales = {};
     bool lock_sharp_borders = false;
+    std::span<const Transform> instances = {};       // how far errors reach in the world; see InstanceMetric
     std::optional<double> max_geometric_error = {};  // Gamma, mesh units: dearer pairs are no candidates
 };
 
@@ -66,7 +69,7 @@ class EndPointCollapse {
     void forget_refusals();
     StopReason reason_for_refusals() const;
 
-    Simplified finish(StopReason reason) const;
+    Simplified finish(StopReason reason, const Watch& watch) const;
 
   private:
     std::optional<double> cost_around(uint32_t removed, uint32_t kept);
@@ -82,6 +85,7 @@ class EndPointCollapse {
     CollapseRules rules_;
     BoundsGuard bounds_;
     LineGuard lines_;
+    UvGuard uvs_;
     Deviation deviation_;
     WedgeMap wedge_map_;
     Neighbours around_;

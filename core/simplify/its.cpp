@@ -61,12 +61,12 @@ bool is_small_enough(const Mesh& mesh, const Target& target) {
     return target.vertices && mesh.vertex_count() <= *target.vertices;
 }
 
-Simplified simplify(const Mesh& source, std::span<const Transform>, const Target& target,
+Simplified simplify(const Mesh& source, std::span<const Transform> instances, const Target& target,
                     const ParameterValues& values, const Watch& watch) {
     watch.check();
     if (is_small_enough(source, target)) {
         Simplified same = {.mesh = source, .stop_reason = StopReason::already_smaller};
-        drop_unused(same.mesh);
+        drop_unused(same.mesh, watch);
         return same;
     }
     const bool faithful = values.choice("mode") == "faithful";
@@ -74,6 +74,7 @@ Simplified simplify(const Mesh& source, std::span<const Transform>, const Target
         .weights = faithful ? PlaneWeights::count : PlaneWeights::area,
         .scales = {values.number("normal_scale"), values.number("uv_scale"), values.number("color_scale")},
         .lock_sharp_borders = faithful,  // full has planes that hold them
+        .instances = instances,
         .max_geometric_error = values.number("max_geometric_error"),
     };
     EndPointCollapse work(source, target, options, watch);
@@ -83,7 +84,7 @@ Simplified simplify(const Mesh& source, std::span<const Transform>, const Target
         collapse_cheapest_first(work, watch);
     }
     watch.report(1.0);
-    return work.finish(work.done() ? StopReason::target : work.reason_for_refusals());
+    return work.finish(work.done() ? StopReason::target : work.reason_for_refusals(), watch);
 }
 
 }  // namespace

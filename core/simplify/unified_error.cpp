@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/watched_loop.h"
+
 namespace coppice {
 
 namespace {
@@ -15,54 +17,64 @@ constexpr double flat_preference = 1e-6;
 }  // namespace
 
 UnifiedError::UnifiedError(const CollapseMesh& mesh, std::span<const FeatureEdge> features,
-                           AttributeClouds& clouds, PlaneWeights weights)
+                           AttributeClouds& clouds, PlaneWeights weights, const InstanceMetric& metric,
+                           const Watch& watch)
     : mesh_(mesh),
       clouds_(clouds),
       weights_(weights),
       geometry_(mesh.vertex_count()),
       spread_(size_t{mesh.vertex_count()} * clouds.channels()) {
-    add_planes(mesh);
-    if (weights == PlaneWeights::area) add_constraints(features);
-    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    add_planes(metric, watch);
+    if (weights == PlaneWeights::area) add_constraints(features, metric, watch);
+    watched_loop(mesh.vertex_count(), watch, [&](size_t i) {
+        const auto v = static_cast<uint32_t>(i);
         for (uint32_t w = mesh.wedge_begin(v); w < mesh.wedge_end(v); ++w) {
             for (uint32_t k = 0; k < clouds.channels(); ++k) {
                 spread_[size_t{v} * clouds.channels() + k].weight += clouds.weight(w, k);
             }
         }
-    }
+    });
 }
 
-void UnifiedError::add_planes(const CollapseMesh& mesh) {
-    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-        if (!mesh.is_live_triangle(t)) continue;
-        const uint32_t v[] = {mesh.corner_vertex(3 * t), mesh.corner_vertex(3 * t + 1),
-                              mesh.corner_vertex(3 * t + 2)};
-        const Vec3d a = mesh.position(v[0]);
-        const Vec3d twice_area = cross(mesh.position(v[1]) - a, mesh.position(v[2]) - a);
+// In the mean instance an area is times `shrink`, a distance to its plane is divided by that.
+void UnifiedError::add_planes(const InstanceMetric& metric, const Watch& watch) {
+    watched_loop(mesh_.triangle_count(), watch, [&](size_t i) {
+        const auto t = static_cast<uint32_t>(i);
+        if (!mesh_.is_live_triangle(t)) return;
+        const uint32_t v[] = {mesh_.corner_vertex(3 * t), mesh_.corner_vertex(3 * t + 1),
+                              mesh_.corner_vertex(3 * t + 2)};
+        const Vec3d a = mesh_.position(v[0]);
+        const Vec3d twice_area = cross(mesh_.position(v[1]) - a, mesh_.position(v[2]) - a);
         const double area = 0.5 * length(twice_area);
-        if (!(area > 0)) continue;
-        const double weight = weights_ == PlaneWeights::area ? area : 1.0;
-        const Quadric plane = plane_quadric(normalized(twice_area), a, weight);
+        if (!(area > 0)) return;
+        const Vec3d normal = normalized(twice_area);
+        const double shrink = weights_ == PlaneWeights::area ? metric.shrink(normal) : 1;
+        const double weight = weights_ == PlaneWeights::area ? area * shrink : 1;
+        const Quadric plane = plane_quadric(normal, a, weight / (shrink * shrink));
         for (const uint32_t vertex : v) {
             geometry_[vertex].quadric += plane;
             geometry_[vertex].plane_weight += weight;
             geometry_[vertex].area += area;
         }
-    }
+    });
 }
 
 // Planes through border and seam edges, perpendicular to the triangle.
-void UnifiedError::add_constraints(std::span<const FeatureEdge> features) {
-    for (const FeatureEdge& f : features) {
+void UnifiedError::add_constraints(std::span<const FeatureEdge> features, const InstanceMetric& metric,
+                                   const Watch& watch) {
+    watched_loop(features.size(), watch, [&](size_t i) {
+        const FeatureEdge& f = features[i];
         const Vec3d a = mesh_.position(mesh_.corner_vertex(3 * f.triangle));
         const Vec3d normal = cross(mesh_.position(mesh_.corner_vertex(3 * f.triangle + 1)) - a,
                                    mesh_.position(mesh_.corner_vertex(3 * f.triangle + 2)) - a);
         const Vec3d edge = mesh_.position(f.b) - mesh_.position(f.a);
+        const Vec3d across = normalized(cross(edge, normal));
+        const double shrink = metric.shrink(across);
         const double weight = squared_length(edge) * (f.is_border ? border_weight : seam_weight);
-        const Quadric plane = plane_quadric(normalized(cross(edge, normal)), mesh_.position(f.a), weight);
+        const Quadric plane = plane_quadric(across, mesh_.position(f.a), weight / (shrink * shrink));
         geometry_[f.a].quadric += plane;
         geometry_[f.b].quadric += plane;
-    }
+    });
 }
 
 UnifiedError::Cost UnifiedError::cost(uint32_t removed, uint32_t kept,

@@ -13,6 +13,7 @@
 #include "core/base/watch.h"
 #include "core/simplify/attribute_cloud.h"
 #include "core/simplify/collapse_mesh.h"
+#include "core/simplify/instance_metric.h"
 #include "core/simplify/quadric.h"
 #include "core/simplify/vertex_kind.h"
 
@@ -34,7 +35,7 @@ class UnifiedError {
     };
 
     UnifiedError(const CollapseMesh& mesh, std::span<const FeatureEdge> features, AttributeClouds& clouds,
-                 PlaneWeights weights);
+                 PlaneWeights weights, const InstanceMetric& metric, const Watch& watch);
 
     // wedge_map as WedgeMap gives it for the pair.
     Cost cost(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) const;
@@ -54,8 +55,9 @@ class UnifiedError {
         double squared = 0;  // Pi of its clouds at its own values
     };
 
-    void add_planes(const CollapseMesh& mesh);
-    void add_constraints(std::span<const FeatureEdge> features);
+    void add_planes(const InstanceMetric& metric, const Watch& watch);
+    void add_constraints(std::span<const FeatureEdge> features, const InstanceMetric& metric,
+                         const Watch& watch);
     double gathered_error(uint32_t removed, const std::vector<uint32_t>& wedge_map, uint32_t channel) const;
 
     const CollapseMesh& mesh_;

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/watched_loop.h"
+
 namespace coppice {
 
 namespace {
@@ -61,16 +63,16 @@ struct SlotWedge {
 
 // The distinct (wedge, slot) pairs that corners use. Nearly all wedges have one slot, so only the others are
 // sorted.
-std::vector<SlotWedge> used_pairs(const Mesh& mesh) {
+std::vector<SlotWedge> used_pairs(const Mesh& mesh, const Watch& watch) {
     constexpr uint32_t unused = UINT32_MAX;
     std::vector<uint32_t> first_slot(mesh.wedge_count(), unused);
     std::vector<std::pair<uint32_t, uint32_t>> more;
-    for (size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+    watched_loop(mesh.triangles.size(), watch, [&](size_t corner) {
         const uint32_t wedge = mesh.triangles[corner];
         const uint32_t slot = mesh.triangle_slot[corner / 3];
         if (first_slot[wedge] == unused) first_slot[wedge] = slot;
         if (first_slot[wedge] != slot) more.emplace_back(wedge, slot);
-    }
+    });
     std::sort(more.begin(), more.end());
     more.erase(std::unique(more.begin(), more.end()), more.end());
     std::vector<SlotWedge> pairs;
@@ -83,26 +85,27 @@ std::vector<SlotWedge> used_pairs(const Mesh& mesh) {
 
 // Counting sort by vertex; fills begin.
 std::vector<SlotWedge> by_vertex(const Mesh& mesh, const std::vector<SlotWedge>& pairs,
-                                 std::vector<uint32_t>& begin) {
+                                 std::vector<uint32_t>& begin, const Watch& watch) {
     begin.assign(mesh.vertex_count() + 1, 0);
     for (const SlotWedge& p : pairs) ++begin[mesh.wedge_vertex[p.wedge] + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<uint32_t> next(begin.begin(), begin.end() - 1);
     std::vector<SlotWedge> sorted(pairs.size());
-    for (const SlotWedge& p : pairs) sorted[next[mesh.wedge_vertex[p.wedge]]++] = p;
+    watched_loop(pairs.size(), watch,
+                 [&](size_t i) { sorted[next[mesh.wedge_vertex[pairs[i].wedge]]++] = pairs[i]; });
     return sorted;
 }
 
 // Sorts the wedges of every vertex into charts and names each chart by its first wedge.
 std::vector<uint32_t> find_charts(const Mesh& mesh, const std::vector<uint32_t>& begin,
-                                  std::vector<SlotWedge>& wedges) {
+                                  std::vector<SlotWedge>& wedges, const Watch& watch) {
     const HardValues hard(mesh);
     const auto order = [&hard](const SlotWedge& a, const SlotWedge& b) {
         if (a.slot != b.slot) return a.slot < b.slot ? -1 : 1;
         return hard.compare(a.wedge, b.wedge);
     };
     std::vector<uint32_t> chart(wedges.size());
-    for (size_t v = 0; v + 1 < begin.size(); ++v) {
+    watched_loop(mesh.vertex_count(), watch, [&](size_t v) {
         std::sort(wedges.begin() + begin[v], wedges.begin() + begin[v + 1],
                   [&order](const SlotWedge& a, const SlotWedge& b) {
                       const int difference = order(a, b);
@@ -112,16 +115,16 @@ std::vector<uint32_t> find_charts(const Mesh& mesh, const std::vector<uint32_t>&
             const bool same = w > begin[v] && order(wedges[w - 1], wedges[w]) == 0;
             chart[w] = same ? chart[w - 1] : w;
         }
-    }
+    });
     return chart;
 }
 
 }  // namespace
 
-WedgeCharts wedge_charts(const Mesh& mesh) {
+WedgeCharts wedge_charts(const Mesh& mesh, const Watch& watch) {
     WedgeCharts charts;
-    std::vector<SlotWedge> wedges = by_vertex(mesh, used_pairs(mesh), charts.begin);
-    charts.chart = find_charts(mesh, charts.begin, wedges);
+    std::vector<SlotWedge> wedges = by_vertex(mesh, used_pairs(mesh, watch), charts.begin, watch);
+    charts.chart = find_charts(mesh, charts.begin, wedges, watch);
     for (const SlotWedge& w : wedges) {
         charts.source.push_back(w.wedge);
         charts.slot.push_back(w.slot);
@@ -131,7 +134,7 @@ WedgeCharts wedge_charts(const Mesh& mesh) {
     std::vector<uint32_t> last(mesh.wedge_count(), 0);
     for (uint32_t w = 0; w < wedges.size(); ++w) last[wedges[w].wedge] = w;
     charts.corner_wedge.resize(mesh.triangles.size());
-    for (size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+    watched_loop(mesh.triangles.size(), watch, [&](size_t corner) {
         const uint32_t source = mesh.triangles[corner];
         const uint32_t slot = mesh.triangle_slot[corner / 3];
         uint32_t w = last[source];
@@ -140,7 +143,7 @@ WedgeCharts wedge_charts(const Mesh& mesh) {
             while (charts.source[w] != source || charts.slot[w] != slot) ++w;
         }
         charts.corner_wedge[corner] = w;
-    }
+    });
     return charts;
 }
 

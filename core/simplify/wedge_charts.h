@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/watch.h"
 #include "core/mesh/mesh.h"
 
 namespace coppice {
@@ -17,6 +18,7 @@ struct WedgeCharts {
     std::vector<uint32_t> corner_wedge;  // per corner
 };
 
-WedgeCharts wedge_charts(const Mesh& mesh);
+// O(wedges log wedges of a vertex).
+WedgeCharts wedge_charts(const Mesh& mesh, const Watch& watch);
 
 }  // namespace coppice

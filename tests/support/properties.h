@@ -10,6 +10,7 @@
 
 #include "core/optimize/report.h"
 #include "core/scene/scene.h"
+#include "tests/support/orientation.h"
 
 namespace coppice::test {
 
@@ -32,12 +33,8 @@ std::vector<std::pair<uint32_t, uint32_t>> mesh_pairs(const Scene& before, const
 // Not more edges with three triangles or more, nor with two that run along it in the same direction.
 ::testing::AssertionResult has_no_new_non_manifold_edge(const Mesh& before, const Mesh& after);
 
-// No triangle whose normal points away from all of the original surface near its centroid and around its
-// corners.
-::testing::AssertionResult has_no_flipped_triangle(const Mesh& before, const Mesh& after);
-
 // Each border edge runs along an original border, nearer than that fraction of the mesh's diagonal, and no
-// original border is without one nearer than twice that.
+// original border is without one as near.
 ::testing::AssertionResult keeps_borders(const Mesh& before, const Mesh& after, double diagonal_fraction);
 
 // The same for the edges along which texture coordinates are cut.
@@ -47,7 +44,7 @@ std::vector<std::pair<uint32_t, uint32_t>> mesh_pairs(const Scene& before, const
 // the texture between them. Holds for algorithms that keep original wedges.
 ::testing::AssertionResult keeps_charts(const Mesh& before, const Mesh& after);
 
-// All of the above.
+// All of the above, and of orientation.h.
 void expect_properties_kept(const Scene& before, const Scene& after, const Report& report, double ratio);
 
 }  // namespace coppice::test

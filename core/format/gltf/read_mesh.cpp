@@ -150,9 +150,9 @@ class MeshReader {
 
     void clean() {
         make_legal(mesh_);
-        weld(mesh_);
-        const CleanedTriangles cleaned = drop_degenerate_and_duplicate(mesh_);
-        drop_unused(mesh_);
+        weld(mesh_, watch_);
+        const CleanedTriangles cleaned = drop_degenerate_and_duplicate(mesh_, watch_);
+        drop_unused(mesh_, watch_);
         const std::string where = pointer("meshes", index_);
         if (cleaned.degenerate > 0)
             parsed_.warn(

@@ -39,11 +39,11 @@ class MeshBuilder {
         }
     }
 
-    Mesh finish(WarningTally& tally) {
+    Mesh finish(WarningTally& tally, const Watch& watch) {
         add_attributes();
         for (const uint32_t position : used_) vertex_of_[position] = obj_none;
         repair_normals(mesh_, tally);
-        weld(mesh_);
+        weld(mesh_, watch);
         return std::move(mesh_);
     }
 
@@ -207,7 +207,7 @@ ObjMeshes build_meshes(const ObjFile& file, const Watch& watch, std::vector<Warn
             builder.add_faces(file.runs[run].material, file.runs[run].first_face, end, watch);
         }
         out.mesh_of_object[object] = static_cast<uint32_t>(out.meshes.size());
-        out.meshes.push_back(builder.finish(tally));
+        out.meshes.push_back(builder.finish(tally, watch));
     }
     tally.move_to(warnings);
     return out;

@@ -115,9 +115,9 @@ Scene read_ply(ByteView bytes, std::string_view file_name, const Resources& reso
     add_attributes(body, mesh);
     mesh.positions = std::move(body.positions);
     add_slots(body, scene.materials.size(), mesh);
-    drop_unused(mesh);
+    drop_unused(mesh, watch);
     repair_normals(mesh, tally);
-    weld(mesh);
+    weld(mesh, watch);
     add_placed_mesh(scene, std::move(mesh));
     tally.move_to(scene.warnings);
     return scene;

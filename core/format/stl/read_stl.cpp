@@ -24,14 +24,14 @@ void require_room(uint64_t triangles, const ReadLimits& limits) {
 }
 
 // Positions are those of the corners, three a triangle.
-void finish(Scene& scene, Mesh mesh) {
+void finish(Scene& scene, Mesh mesh, const Watch& watch) {
     if (mesh.positions.empty()) return;
     mesh.wedge_vertex.resize(mesh.positions.size());
     std::iota(mesh.wedge_vertex.begin(), mesh.wedge_vertex.end(), 0U);
     mesh.triangles = mesh.wedge_vertex;
     mesh.triangle_slot.assign(mesh.positions.size() / 3, 0);
     mesh.slots.resize(1);
-    weld(mesh);
+    weld(mesh, watch);
     add_placed_mesh(scene, std::move(mesh));
 }
 
@@ -57,7 +57,7 @@ void read_binary(ByteView bytes, std::string name, const ReadLimits& limits, con
             mesh.positions.push_back(p);
         }
     }
-    finish(scene, std::move(mesh));
+    finish(scene, std::move(mesh), watch);
 }
 
 bool is_word(std::string_view word, std::string_view wanted) {
@@ -122,7 +122,7 @@ class TextReader {
 
     void end_solid(const Line& line) {
         if (corners_ != 0) line.fail("the STL ends inside a facet");
-        finish(scene_, std::exchange(mesh_, {}));
+        finish(scene_, std::exchange(mesh_, {}), watch_);
     }
 
     LineReader reader_;

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "core/base/error.h"
+
 namespace coppice {
 namespace {
 
@@ -95,6 +97,58 @@ TEST(DropDegenerateAndDuplicate, keeps_the_back_side_of_a_double_sided_triangle)
     weld(mesh);
     mesh.triangles = {0, 1, 2, 2, 1, 0};
     EXPECT_EQ(drop_degenerate_and_duplicate(mesh).duplicate, 0);
+}
+
+// A triangle, and what lies on the same three vertices.
+Mesh two_on_each_other() {
+    Mesh mesh = unindexed_square();
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+    return mesh;
+}
+
+TEST(DropDegenerateAndDuplicate, keeps_a_decal_of_another_material) {
+    Mesh mesh = two_on_each_other();
+    mesh.slots.resize(2);
+    mesh.triangle_slot = {0, 1};
+    weld(mesh);
+    EXPECT_EQ(drop_degenerate_and_duplicate(mesh).duplicate, 0);
+    EXPECT_EQ(mesh.triangle_count(), 2);
+}
+
+TEST(DropDegenerateAndDuplicate, keeps_a_second_triangle_that_has_other_attributes) {
+    Mesh mesh = two_on_each_other();
+    mesh.attributes = {
+        {.name = "TEXCOORD_0", .components = 2, .values = {0, 0, 1, 0, 1, 1, 0, 0, 1, 0, 1, .5F}}};
+    weld(mesh);
+    EXPECT_EQ(drop_degenerate_and_duplicate(mesh).duplicate, 0);
+    mesh.attributes[0].values[7] = 1;  // of the wedge that differed
+    weld(mesh);
+    EXPECT_EQ(drop_degenerate_and_duplicate(mesh).duplicate, 1);
+}
+
+TEST(DropDegenerateAndDuplicate, keeps_what_is_flat_until_a_morph_target_opens_it) {
+    Mesh mesh = unindexed_square();
+    for (Vec3f& p : mesh.positions) p.y = 0;
+    mesh.positions[1].x = 0.5F;
+    mesh.positions[5].x = 0.5F;
+    Attribute delta = {.name = "POSITION", .components = 3, .values = std::vector<float>(18, 0)};
+    delta.values[3 * 1 + 1] = 1;  // lifts the middle corner of the first triangle
+    mesh.morph_targets = {{.deltas = {delta}}};
+    weld(mesh);
+    const CleanedTriangles cleaned = drop_degenerate_and_duplicate(mesh);
+    EXPECT_EQ(cleaned.degenerate, 1) << "the second stays flat";
+    EXPECT_EQ(mesh.triangle_count(), 1);
+    EXPECT_FLOAT_EQ(mesh.morph_targets[0].deltas[0].values[3 * mesh.triangles[1] + 1], 1);
+}
+
+TEST(Weld, and_what_cleans_after_it_stop_when_they_are_told_to) {
+    std::stop_source stop;
+    stop.request_stop();
+    const Watch stopped = {.stop = stop.get_token()};
+    Mesh mesh = unindexed_square();
+    EXPECT_THROW(weld(mesh, stopped), Error);
+    EXPECT_THROW(drop_unused(mesh, stopped), Error);
+    EXPECT_THROW(drop_degenerate_and_duplicate(mesh, stopped), Error);
 }
 
 }  // namespace

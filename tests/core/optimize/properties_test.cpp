@@ -1,7 +1,12 @@
 // The checks of tests/support/properties.h each fail on what they are there to catch.
 #include "tests/support/properties.h"
 
+#include <fmt/core.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "core/simplify/registry.h"
+#include "tests/support/shapes.h"
 
 namespace coppice::test {
 namespace {
@@ -127,6 +132,63 @@ TEST(Properties, notice_a_flipped_triangle) {
     std::swap(after.triangles[30], after.triangles[31]);
     EXPECT_TRUE(has_no_flipped_triangle(before, before));
     EXPECT_FALSE(has_no_flipped_triangle(before, after));
+}
+
+// A sharp rim all around, where both sides nearly agree about what is nearest, and face opposite ways.
+Mesh lens() {
+    Mesh mesh = shapes::sphere();
+    for (Vec3f& p : mesh.positions) p.y *= 0.02F;
+    return mesh;
+}
+
+// Each of the triangles alone turned around, or all at once, which is the same to a check of single
+// triangles.
+Mesh turned_around(Mesh mesh) {
+    for (size_t t = 0; t < mesh.triangle_count(); ++t)
+        std::swap(mesh.triangles[3 * t], mesh.triangles[3 * t + 1]);
+    return mesh;
+}
+
+TEST(Properties, notice_every_flipped_triangle_of_a_good_result) {
+    const Algorithm& its = find_algorithm("its");
+    const std::vector<Mesh> originals = {shapes::sphere(),
+                                         shapes::box(),
+                                         shapes::grid({.height = 0.1, .normals = true, .uvs = true}),
+                                         shapes::torus(),
+                                         shapes::blob({.segments = 40, .rings = 30}),
+                                         lens()};
+    for (const Mesh& before : originals) {
+        const Mesh after = its.simplify(before, {}, {.triangles = before.triangle_count() / 2},
+                                        ParameterValues::parse(its.parameters, {}), {})
+                               .mesh;
+        EXPECT_TRUE(has_no_flipped_triangle(before, after));
+        const auto turned = has_no_flipped_triangle(before, turned_around(after));
+        EXPECT_THAT(turned.message(), testing::StartsWith(fmt::format("{} of {} ", after.triangle_count(),
+                                                                      after.triangle_count())));
+    }
+}
+
+TEST(Properties, notice_a_vertex_that_is_pulled_over_an_edge) {
+    const Mesh before = sheet(4);
+    Mesh after = before;
+    after.positions[12].x = 3.5F;  // the middle one, past its neighbour at x = 3
+    EXPECT_FALSE(has_no_flipped_triangle(before, after));
+}
+
+TEST(Properties, notice_a_mirrored_texture) {
+    const Mesh before = sheet(4, 2);
+    EXPECT_TRUE(keeps_uv_orientation(before, before));
+    Mesh wound = before;
+    std::swap(wound.triangles[30], wound.triangles[31]);
+    EXPECT_FALSE(keeps_uv_orientation(before, wound));
+    Mesh pulled = before;  // in the texture alone: the wedge at (1, 1) lands right of its neighbour's
+    const size_t wedge = 1 * 6 + 1;  // the seam's vertex has two in each row
+    ASSERT_EQ(pulled.positions[pulled.wedge_vertex[wedge]], (Vec3f{1, 1, 0}));
+    pulled.attributes[0].values[2 * wedge] = 2.5F;
+    EXPECT_FALSE(keeps_uv_orientation(before, pulled));
+    Mesh line = before;
+    line.triangles[2] = line.triangles[1];
+    EXPECT_FALSE(keeps_uv_orientation(before, line)) << "no area left";
 }
 
 TEST(Properties, notice_a_hole_and_an_eaten_border) {

@@ -1,0 +1,87 @@
+#include "core/simplify/uv_guard.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/watched_loop.h"
+
+namespace coppice {
+
+namespace {
+
+// Twice the area below this part of the longest edge squared is none: its sign would be chance.
+constexpr double degenerate_aspect = 1e-6;
+constexpr int8_t unseen = 2;
+
+bool is_uv_set(const Attribute& a) {
+    return a.name.starts_with("TEXCOORD_") && a.components == 2;
+}
+
+}  // namespace
+
+UvGuard::UvGuard(const CollapseMesh& mesh, const Mesh& source, const Watch& watch) : mesh_(mesh) {
+    std::vector<const Attribute*> sets;
+    for (const Attribute& a : source.attributes) {
+        if (is_uv_set(a)) sets.push_back(&a);
+    }
+    sets_ = static_cast<uint32_t>(sets.size());
+    uvs_.resize(size_t{mesh.wedge_count()} * sets_);
+    windings_.resize(size_t{mesh.triangle_count()} * sets_);
+    around_.resize(uvs_.size(), unseen);
+    for (uint32_t set = 0; set < sets_; ++set) add_set(mesh, *sets[set], set, watch);
+}
+
+void UvGuard::add_set(const CollapseMesh& mesh, const Attribute& uvs, uint32_t set, const Watch& watch) {
+    watched_loop(mesh.wedge_count(), watch, [&](size_t w) {
+        const float* value = uvs.values.data() + 2 * size_t{mesh.wedge_source(static_cast<uint32_t>(w))};
+        uvs_[w * sets_ + set] = {value[0], value[1]};
+    });
+    watched_loop(mesh.triangle_count(), watch, [&](size_t t) {
+        const auto corner = static_cast<uint32_t>(3 * t);
+        const std::array wedges = {mesh.corner_wedge(corner), mesh.corner_wedge(corner + 1),
+                                   mesh.corner_wedge(corner + 2)};
+        const int8_t wound = winding(uv(wedges[0], set), uv(wedges[1], set), uv(wedges[2], set));
+        windings_[t * sets_ + set] = wound;
+        for (const uint32_t wedge : wedges) {
+            int8_t& around = around_[size_t{mesh.wedge_chart(wedge)} * sets_ + set];
+            around = around == unseen || around == wound ? wound : int8_t{0};
+        }
+    });
+}
+
+int8_t UvGuard::winding(Uv a, Uv b, Uv c) {
+    const double abu = double{b.u} - double{a.u}, abv = double{b.v} - double{a.v};
+    const double acu = double{c.u} - double{a.u}, acv = double{c.v} - double{a.v};
+    const double bcu = acu - abu, bcv = acv - abv;
+    const double longest = std::max({abu * abu + abv * abv, acu * acu + acv * acv, bcu * bcu + bcv * bcv});
+    const double twice_area = abu * acv - abv * acu;
+    if (std::abs(twice_area) <= degenerate_aspect * longest) return 0;
+    return twice_area > 0 ? 1 : -1;
+}
+
+bool UvGuard::may_collapse(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) const {
+    if (sets_ == 0) return true;
+    const uint32_t first = mesh_.wedge_begin(removed);
+    for (uint32_t c = mesh_.first_corner(removed); c != no_index; c = mesh_.corner_after(c)) {
+        const uint32_t next = CollapseMesh::next_corner(c), previous = CollapseMesh::previous_corner(c);
+        if (mesh_.corner_vertex(next) == kept || mesh_.corner_vertex(previous) == kept) continue;
+        const std::array wedges = {wedge_map[mesh_.corner_wedge(c) - first], mesh_.corner_wedge(next),
+                                   mesh_.corner_wedge(previous)};
+        for (uint32_t set = 0; set < sets_; ++set) {
+            if (!keeps_winding(c / 3, set, wedges)) return false;
+        }
+    }
+    return true;
+}
+
+bool UvGuard::keeps_winding(size_t triangle, uint32_t set, const std::array<uint32_t, 3>& wedges) const {
+    const int8_t before = windings_[triangle * sets_ + set];
+    const int8_t after = winding(uv(wedges[0], set), uv(wedges[1], set), uv(wedges[2], set));
+    if (after == 0) return before == 0;
+    if (before == -after) return false;
+    int around = 0;
+    for (const uint32_t wedge : wedges) around += around_[size_t{mesh_.wedge_chart(wedge)} * sets_ + set];
+    return around * after >= 0;
+}
+
+}  // namespace coppice
