@@ -80,7 +80,9 @@ bool CollapseRules::kinds_allow(uint32_t removed, uint32_t kept, const Neighbour
     if (!allows(kinds_[removed], kinds_[kept])) return false;
     switch (kinds_[removed]) {
         case VertexKind::border:
-            return around.uses(kept) == 1;
+            // Of the edges here those of the border have the fewest triangles: one for each layer.
+            return std::none_of(around.all().begin(), around.all().end(),
+                                [&](uint32_t v) { return around.uses(v) < around.uses(kept); });
         case VertexKind::complex: {
             const uint32_t uses = around.uses(kept);
             // Either all edges here are alike (say, two sheets back to back), or the edge is one of the two

@@ -1,25 +1,35 @@
 #include "core/simplify/vertex_kind.h"
 
+#include <array>
+
 #include "core/simplify/neighbours.h"
 
 namespace coppice {
 
 namespace {
 
+// The triangles at an edge that have the same third vertex: one, or several that lie on each other (a decal
+// of another material, two sheets back to back).
+struct Side {
+    uint32_t opposite = no_index;
+    uint32_t triangle = 0;  // the first
+    uint32_t layers = 0;
+    uint64_t charts = 0;  // at both ends of the edge, summed over the layers
+};
+
 // One edge from the vertex in question, as its triangles show it.
 struct Spoke {
     uint32_t neighbour = 0;
-    uint32_t uses = 0;
-    uint32_t near_chart = 0, far_chart = 0;  // of the first triangle
-    uint32_t triangles[2] = {0, 0};
-    uint32_t opposite[2] = {0, 0};  // their third vertices
-    bool breaks = false;            // a later triangle has other charts
-    uint32_t fan = 0;               // union-find parent, index of a spoke
+    std::array<Side, 2> sides = {};
+    bool crowded = false;  // more than two sides
+    uint32_t fan = 0;      // union-find parent, index of a spoke
 
-    // Two sheets back to back end where a triangle meets its own reverse.
-    bool is_rim() const { return uses == 2 && opposite[0] == opposite[1]; }
-    bool is_border() const { return uses == 1 || is_rim(); }
-    bool is_seam() const { return uses == 2 && breaks && !is_rim(); }
+    bool is_border() const { return !crowded && sides[1].layers == 0; }
+    // Charts break, or a layer ends.
+    bool is_seam() const {
+        return !crowded && sides[1].layers > 0 &&
+               (sides[0].layers != sides[1].layers || sides[0].charts != sides[1].charts);
+    }
 };
 
 class Classifier {
@@ -33,7 +43,7 @@ class Classifier {
         for (uint32_t i = 0; i < spokes_.size(); ++i) {
             borders += spokes_[i].is_border();
             seams += spokes_[i].is_seam();
-            crowded |= spokes_[i].uses > 2;
+            crowded |= spokes_[i].crowded;
             fans += root(i) == i;
         }
         if (crowded || fans > 1) return VertexKind::complex;
@@ -47,8 +57,8 @@ class Classifier {
     void append_features(uint32_t vertex, std::vector<FeatureEdge>& edges) const {
         for (const Spoke& s : spokes_) {
             if (s.neighbour < vertex || !(s.is_border() || s.is_seam())) continue;
-            for (uint32_t side = 0; side < s.uses; ++side) {
-                edges.push_back({vertex, s.neighbour, s.triangles[side], s.is_border()});
+            for (const Side& side : s.sides) {
+                if (side.layers > 0) edges.push_back({vertex, s.neighbour, side.triangle, s.is_border()});
             }
         }
     }
@@ -71,20 +81,24 @@ class Classifier {
     uint32_t use(uint32_t near, uint32_t far) {
         const uint32_t i = neighbours_.find(mesh_.corner_vertex(far));
         Spoke& s = spokes_[i];
-        const uint32_t near_chart = mesh_.wedge_chart(mesh_.corner_wedge(near));
-        const uint32_t far_chart = mesh_.wedge_chart(mesh_.corner_wedge(far));
-        if (s.uses == 0) {
-            s.near_chart = near_chart;
-            s.far_chart = far_chart;
+        const uint32_t third = 9 * (near / 3) + 3 - near - far;  // the corners' sum less these two
+        const uint32_t opposite = mesh_.corner_vertex(third);
+        for (Side& side : s.sides) {
+            if (side.layers > 0 && side.opposite != opposite) continue;
+            if (side.layers == 0) side = {opposite, near / 3};
+            ++side.layers;
+            side.charts += pair_number(mesh_.wedge_chart(mesh_.corner_wedge(near)),
+                                       mesh_.wedge_chart(mesh_.corner_wedge(far)));
+            return i;
         }
-        s.breaks |= s.near_chart != near_chart || s.far_chart != far_chart;
-        if (s.uses < 2) {
-            const uint32_t third = 9 * (near / 3) + 3 - near - far;  // the corners' sum less these two
-            s.triangles[s.uses] = near / 3;
-            s.opposite[s.uses] = mesh_.corner_vertex(third);
-        }
-        ++s.uses;
+        s.crowded = true;
         return i;
+    }
+
+    // So that sums over several pairs are as good as never equal by chance.
+    static uint64_t pair_number(uint32_t near_chart, uint32_t far_chart) {
+        const uint64_t pair = (uint64_t{near_chart} << 32 | far_chart) * 0x9e3779b97f4a7c15ULL;
+        return (pair ^ (pair >> 32)) * 0xd6e8feb86659fd93ULL;  // both steps can be undone
     }
 
     uint32_t root(uint32_t i) {

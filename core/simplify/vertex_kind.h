@@ -1,4 +1,5 @@
 // What the surface is like at each vertex before anything is collapsed, and which collapses that forbids.
+// Triangles on the same three vertices (decals, sheets back to back) count as one surface of several layers.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@ enum class VertexKind : uint8_t {
     border,    // on one open border, off seams
     seam,      // on one seam: UVs, slots or other protected attributes break along two edges
     corner,    // borders and seams meet or end here; it stays
-    complex,   // an edge with more than two triangles, or several fans
+    complex,   // an edge where more than two sides meet, or several fans
 };
 
 inline constexpr size_t vertex_kinds = 5;

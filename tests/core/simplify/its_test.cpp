@@ -9,8 +9,12 @@
 #include <set>
 #include <tuple>
 
+#include "core/base/error.h"
 #include "core/mesh/adjacency.h"
 #include "core/mesh/weld.h"
+#include "core/simplify/end_point_collapse.h"
+#include "core/simplify/its_order.h"
+#include "tests/support/properties.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface.h"
 
@@ -205,6 +209,105 @@ TEST(Its, estimates_the_deviation_that_a_measurement_finds) {
     for (const Vec3f p : hills.positions) measured = std::max(measured, after.distance_to(to_double(p)));
     EXPECT_GT(s.error_model_units, 0.7 * measured);
     EXPECT_LT(s.error_model_units, 4 * measured);
+}
+
+// Two sheets without a common vertex: ripples of one height, in one facing x, in the other facing y.
+Mesh ripples() {
+    Mesh mesh = shapes::grid({.columns = 24, .rows = 24});
+    const auto count = static_cast<uint32_t>(mesh.vertex_count());
+    for (uint32_t v = 0; v < count; ++v) {
+        const Vec3f p = mesh.positions[v];
+        const float height = 0.02F * std::sin(25 * p.x) * std::sin(25 * p.z);
+        mesh.positions[v].y = height;
+        mesh.positions.push_back({-1 - height, p.x, p.z});
+        mesh.wedge_vertex.push_back(count + v);
+    }
+    const std::vector<uint32_t> sheet = mesh.triangles;
+    for (const uint32_t wedge : sheet) mesh.triangles.push_back(count + wedge);
+    mesh.triangle_slot.resize(2 * mesh.triangle_slot.size(), 0);
+    return mesh;
+}
+
+Mesh halve_for(const Mesh& mesh, const std::vector<Transform>& instances) {
+    const Algorithm algorithm = its();
+    return algorithm
+        .simplify(mesh, instances, {.triangles = mesh.triangle_count() / 2},
+                  ParameterValues::parse(algorithm.parameters, {}), {})
+        .mesh;
+}
+
+TEST(Its, keeps_more_of_what_its_instances_stretch) {
+    const auto facing_x = [](const Mesh& mesh) {
+        return std::count_if(mesh.positions.begin(), mesh.positions.end(), [](Vec3f p) { return p.x < 0; });
+    };
+    const Mesh mesh = ripples();
+    const auto usually = static_cast<double>(facing_x(halve_for(mesh, {})));
+    const Transform along_x = from_trs({}, {0, 0, 0, 1}, {4, 1, 1});
+    const Transform along_y = from_trs({}, {0, 0, 0, 1}, {1, 4, 1});
+    EXPECT_GT(facing_x(halve_for(mesh, {along_x})), 1.3 * usually);
+    EXPECT_LT(facing_x(halve_for(mesh, {along_y})), 0.7 * usually);
+}
+
+TEST(Its, gives_the_same_for_any_instances_that_stretch_nothing) {
+    const Mesh mesh = ripples();
+    std::vector<Transform> instances;
+    for (int i = 0; i < 100; ++i) {
+        instances.push_back(from_trs({1.0 * i, 0, 0}, {0.1 * i, 0.3, 0, 1}, {0.1 + i, 0.1 + i, 0.1 + i}));
+    }
+    const Mesh alone = halve_for(mesh, {}), many = halve_for(mesh, instances);
+    EXPECT_EQ(many.triangles, alone.triangles);
+    EXPECT_EQ(many.positions, alone.positions);
+}
+
+TEST(Its, halves_a_surface_with_a_decal_and_keeps_both_on_each_other) {
+    Mesh mesh = shapes::cylinder({.segments = 32, .rows = 16});
+    mesh.slots.push_back({});
+    const std::vector<uint32_t> surface = mesh.triangles;
+    mesh.triangles.insert(mesh.triangles.end(), surface.begin(), surface.end());
+    mesh.triangle_slot.resize(2 * mesh.triangle_slot.size(), 1);
+    const Simplified s = halve(mesh);
+    EXPECT_EQ(s.stop_reason, StopReason::target);
+    std::map<uint32_t, std::set<std::set<uint32_t>>> layers;
+    for (size_t t = 0; t < s.mesh.triangle_count(); ++t) {
+        layers[s.mesh.triangle_slot[t]].insert(
+            {s.mesh.corner_vertex(t, 0), s.mesh.corner_vertex(t, 1), s.mesh.corner_vertex(t, 2)});
+    }
+    EXPECT_EQ(layers[0], layers[1]);
+    EXPECT_TRUE(test::keeps_seams(mesh, s.mesh, 0.05));
+    EXPECT_TRUE(test::keeps_borders(mesh, s.mesh, 0.05));
+}
+
+TEST(Its, turns_no_triangle_around_since_the_start) {
+    // Seen from inside, where each triangle is still known by its number.
+    for (const Mesh& mesh : {shapes::blob({.segments = 40, .rings = 30}), shapes::box({.cells = 8}),
+                             shapes::torus(), shapes::grid({.height = 0.1, .uvs = true})}) {
+        const Target target = {.triangles = mesh.triangle_count() / 10};
+        EndPointCollapse work(mesh, target, {}, {});
+        collapse_cheapest_first(work, {});
+        const CollapseMesh before(mesh);
+        for (uint32_t t = 0; t < before.triangle_count(); ++t) {
+            if (!work.mesh().is_live_triangle(t)) continue;
+            const auto normal = [t](const CollapseMesh& m) {
+                const Vec3d a = m.position(m.corner_vertex(3 * t));
+                return cross(m.position(m.corner_vertex(3 * t + 1)) - a,
+                             m.position(m.corner_vertex(3 * t + 2)) - a);
+            };
+            ASSERT_GT(dot(normal(work.mesh()), normal(before)), 0) << "triangle " << t;
+        }
+    }
+}
+
+TEST(Its, stops_before_it_has_built_anything) {
+    std::stop_source stop;
+    stop.request_stop();
+    const Watch stopped = {.stop = stop.get_token()};
+    const Mesh mesh = shapes::cylinder();
+    EXPECT_THROW(CollapseMesh(mesh, stopped), Error);
+    const CollapseMesh collapsing(mesh);
+    EXPECT_THROW(AttributeClouds(collapsing, mesh, {}, stopped), Error);
+    EXPECT_THROW(CollapseRules(collapsing, {}, stopped), Error);
+    EXPECT_THROW(UvGuard(collapsing, mesh, stopped), Error);
+    EXPECT_THROW(collapsing.extract(mesh, stopped), Error);
 }
 
 TEST(Its, has_nothing_to_do_on_an_empty_mesh) {

@@ -1,6 +1,7 @@
 // The parts that algorithms are made of: heap, quadric, clouds, deviation, mesh, rules.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
@@ -11,7 +12,9 @@
 #include "core/simplify/collapse_rules.h"
 #include "core/simplify/deviation.h"
 #include "core/simplify/heap.h"
+#include "core/simplify/instance_metric.h"
 #include "core/simplify/quadric.h"
+#include "core/simplify/uv_guard.h"
 #include "core/simplify/vertex_kind.h"
 #include "tests/support/shapes.h"
 
@@ -114,6 +117,77 @@ TEST(VertexKinds, tell_borders_seams_and_edges_of_three_triangles_from_the_rest)
               (Kinds{{VertexKind::manifold, 231}, {VertexKind::seam, 33}, {VertexKind::corner, 2}}));
     EXPECT_EQ(kinds_of(shapes::faceted_sphere()), (Kinds{{VertexKind::manifold, 266}}))
         << "normals and colours are no seams";
+}
+
+// The triangles that the rule names once more, with a material of their own.
+template <typename Rule>
+Mesh with_decal(Mesh mesh, Rule covers) {
+    const auto slot = static_cast<uint32_t>(mesh.slots.size());
+    mesh.slots.push_back({});
+    const size_t count = mesh.triangle_count();
+    for (size_t t = 0; t < count; ++t) {
+        if (!covers(t)) continue;
+        for (size_t k = 0; k < 3; ++k) mesh.triangles.push_back(mesh.triangles[3 * t + k]);
+        mesh.triangle_slot.push_back(slot);
+    }
+    return mesh;
+}
+
+TEST(VertexKinds, see_one_surface_where_triangles_lie_on_each_other) {
+    const Mesh cylinder = shapes::cylinder({.segments = 8, .rows = 4});
+    const Mesh covered = with_decal(cylinder, [](size_t) { return true; });
+    EXPECT_EQ(kinds_of(covered), kinds_of(cylinder));
+    const Mesh half = with_decal(shapes::sphere({.segments = 8, .rings = 8}),
+                                 [](size_t t) { return t < 8 + 3 * 16; });  // down to the equator
+    EXPECT_EQ(kinds_of(half)[VertexKind::seam], 8) << "the decal ends along a line";
+    EXPECT_EQ(kinds_of(half)[VertexKind::complex], 0);
+}
+
+TEST(UvGuard, lets_no_triangle_turn_over_in_the_texture_alone) {
+    // A flat strip whose texture is mirrored at its middle, as u = |x|: a collapse across the middle would
+    // lay what is on one side over the other.
+    Mesh strip = shapes::grid({.columns = 8, .rows = 1, .uvs = true});
+    std::vector<float>& uv = strip.attributes[0].values;
+    for (size_t w = 0; w < strip.wedge_count(); ++w) {
+        uv[2 * w] = std::abs(strip.positions[strip.wedge_vertex[w]].x - 0.5F);
+    }
+    const auto vertex_at = [&](float x) {
+        const auto found = std::find_if(strip.positions.begin(), strip.positions.end(),
+                                        [&](Vec3f p) { return p.x == x && p.z == 0; });
+        return static_cast<uint32_t>(found - strip.positions.begin());
+    };
+    const CollapseMesh collapsing(strip);
+    const UvGuard guard(collapsing, strip, {});
+    const auto may_collapse = [&](uint32_t removed, uint32_t kept) {
+        return guard.may_collapse(removed, kept, {collapsing.wedge_begin(kept)});
+    };
+    EXPECT_FALSE(may_collapse(vertex_at(0.5F), vertex_at(0.625F))) << "off the axis";
+    EXPECT_FALSE(may_collapse(vertex_at(0.5F), vertex_at(0.375F))) << "off the axis";
+    EXPECT_TRUE(may_collapse(vertex_at(0.25F), vertex_at(0.375F))) << "on one side";
+}
+
+TEST(InstanceMetric, is_the_identity_where_instances_are_only_turned_moved_scaled_and_mirrored) {
+    const std::vector<Transform> instances = {from_trs({1, 2, 3}, {0.1, 0.2, 0.3, 0.9}, {2, 2, 2}),
+                                              from_trs({}, {0, 0, 0, 1}, {-0.01, 0.01, 0.01})};
+    const InstanceMetric metric(instances);
+    for (const Vec3d n : {Vec3d{1, 0, 0}, {0, 1, 0}, {0.6, 0, 0.8}}) EXPECT_EQ(metric.shrink(n), 1);
+    EXPECT_EQ(InstanceMetric({}).shrink({1, 0, 0}), 1);
+}
+
+TEST(InstanceMetric, shrinks_a_normal_as_the_instance_does_at_equal_volume) {
+    const Transform stretched = from_trs({5, 6, 7}, {0, 0, 0, 1}, {8, 1, 1});
+    const InstanceMetric metric(std::vector{stretched});
+    EXPECT_NEAR(metric.shrink({1, 0, 0}), 2.0 / 8, 1e-5);  // 2: the cube root of the volume
+    EXPECT_NEAR(metric.shrink({0, 1, 0}), 2.0 / 1, 1e-5);
+}
+
+TEST(InstanceMetric, takes_instances_that_are_flat_or_no_numbers) {
+    const Transform flat = from_trs({}, {0, 0, 0, 1}, {1, 1, 0}), nothing = from_trs({}, {0, 0, 0, 1}, {});
+    EXPECT_TRUE(std::isfinite(InstanceMetric(std::vector{flat}).shrink({0, 0, 1})));
+    EXPECT_EQ(InstanceMetric(std::vector{nothing}).shrink({0, 0, 1}), 1);
+    Transform broken;
+    broken.m[0] = std::nan("");
+    EXPECT_EQ(InstanceMetric(std::vector{broken}).shrink({0, 0, 1}), 1);
 }
 
 TEST(CollapseRules, refuse_what_would_make_a_tetrahedron_flat) {
