@@ -10,10 +10,10 @@
 // t leaves: edges shorter than t, where t doubles while there is none and halves while there are more than
 // ten. In effect that collapses about the shortest edges first and is there for reproduction.
 //
-// Guarantees, in both modes: no new non-manifold edge, no flipped triangle (collapse_rules.h), borders, UV
-// seams and borders between materials stay (vertex_kind.h, wedge_map.h) within 5 % of the mesh's diagonal
-// (line_guard.h), the bounding box shrinks by less than 1 % of it on each side. The reported error is an
-// estimate (deviation.h), not a bound.
+// Guarantees, in both modes: no new non-manifold edge, no flipped triangle (collapse_rules.h), none in the
+// texture either (uv_guard.h), borders, UV seams and borders between materials stay (vertex_kind.h,
+// wedge_map.h) within 5 % of the mesh's diagonal (line_guard.h), the bounding box shrinks by less than 1 % of
+// it on each side. The reported error is an estimate (deviation.h), not a bound.
 //
 // Complexity: O(F log F) time for F triangles of bounded valence, about 400 bytes per triangle with normals
 // and UVs. Vertices of more than 128 triangles stay.
@@ -28,6 +28,8 @@
 //   - Quadrics weighted by area and Gamma = sqrt(Q / area), so that Gamma is a length like the attribute
 //   errors.
 //   - Planes that hold borders and seams; short edges first on flat ground.
+//   - Geometric errors are those of the mean instance (instance_metric.h): where instances stretch the mesh,
+//     more is kept of what they enlarge. The paper's instances only copy.
 // faithful: quadrics as printed, unweighted, but
 //   - Gamma = sqrt(Q / number of planes), for its unit.
 //   - Where t has more than ten pairs and t/2 none, the ten shortest are taken: t would swing for ever.
