@@ -7,9 +7,9 @@
 #include <variant>
 
 #include "core/base/error.h"
+#include "core/base/number.h"
 #include "core/simplify/registry.h"
 #include "proto/json.h"
-#include "proto/number.h"
 #include "proto/unknown_option.h"
 
 namespace coppice {
@@ -82,53 +82,40 @@ Format to_format(const Given& given, std::string_view takes) {
 
 // Finding copies does not exist yet; the option that turns it off does, so that requests stay right when it
 // comes.
-void check_discover(const Given& given, std::string_view takes) {
+void check_discover(const Given& given, std::string_view takes, OptimizeOptions& /*options*/) {
     if (text(given, takes) != "none") refuse(given, takes);
+}
+
+using Apply = void (*)(const Given& given, std::string_view takes, OptimizeOptions& options);
+
+template <auto member, auto read>
+void set(const Given& given, std::string_view takes, OptimizeOptions& options) {
+    options.*member = read(given, takes);
 }
 
 struct Rule {
     std::string_view name;
     std::string_view takes;
-    void (*apply)(const Given& given, std::string_view takes, OptimizeOptions& options);
+    Apply apply;
 };
 
 // Ranges are checked by validate(), which guards every caller of the library.
 constexpr auto rules = std::to_array<Rule>({
     {"algorithm", "the id of an algorithm, as GET /v1/algorithms lists them",
-     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
-         options.algorithm = text(given, takes);
-     }},
-    {"ratio", "a number over 0 and at most 1",
-     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
-         options.ratio = number(given, takes);
-     }},
-    {"triangles", "a whole number of at least 1",
-     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
-         options.triangles = whole_number(given, takes);
-     }},
-    {"error", "a number over 0, as a fraction of the scene's diagonal",
-     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
-         options.error = number(given, takes);
-     }},
-    {"format", "glb, gltf, obj or iobj",
-     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
-         options.format = to_format(given, takes);
-     }},
-    {"instancing", "auto, nodes, gpu or expand",
-     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
-         options.instancing = to_instancing(given, takes);
-     }},
-    {"discover", "none, because this version does not find copies yet",
-     [](const Given& given, std::string_view takes, OptimizeOptions&) { check_discover(given, takes); }},
-    {"entry", "the path of a file in the archive",
-     [](const Given& given, std::string_view takes, OptimizeOptions& options) {
-         options.entry = text(given, takes);
-     }},
+     set<&OptimizeOptions::algorithm, text>},
+    {"ratio", "a number over 0 and at most 1", set<&OptimizeOptions::ratio, number>},
+    {"triangles", "a whole number of at least 1", set<&OptimizeOptions::triangles, whole_number>},
+    {"error", "a number over 0, as a fraction of the scene's diagonal", set<&OptimizeOptions::error, number>},
+    {"format", "glb, gltf, obj or iobj", set<&OptimizeOptions::format, to_format>},
+    {"instancing", "auto, nodes, gpu or expand", set<&OptimizeOptions::instancing, to_instancing>},
+    {"discover", "none, because this version does not find copies yet", check_discover},
+    {"entry", "the path of a file in the archive", set<&OptimizeOptions::entry, text>},
 });
 
 constexpr std::string_view parameter_prefix = "parameters.";
 
-std::vector<std::string_view> option_names() {
+std::vector<std::string_view> option_names(JobKind kind) {
+    if (kind == JobKind::inspect) return {"entry"};
     std::vector<std::string_view> names;
     names.reserve(rules.size() + 1);
     for (const Rule& rule : rules) names.push_back(rule.name);
@@ -136,16 +123,24 @@ std::vector<std::string_view> option_names() {
     return names;
 }
 
-void apply(const Given& given, OptimizeOptions& options) {
+// An inspection changes nothing: only the option that chooses the asset means anything.
+void check_taken(const Given& given, JobKind kind) {
+    require(kind == JobKind::optimize || given.name == "entry", ErrorCode::option_invalid, given.name,
+            "{} is an option of optimizing; an inspection takes entry alone", given.name);
+}
+
+void apply(const Given& given, JobKind kind, OptimizeOptions& options) {
     if (given.name.starts_with(parameter_prefix)) {
-        const std::string id = given.name.substr(parameter_prefix.size());
-        options.parameters[id] = given.value;
+        check_taken(given, kind);
+        options.parameters[given.name.substr(parameter_prefix.size())] = given.value;
         return;
     }
     for (const Rule& rule : rules) {
-        if (rule.name == given.name) return rule.apply(given, rule.takes, options);
+        if (rule.name != given.name) continue;
+        check_taken(given, kind);
+        return rule.apply(given, rule.takes, options);
     }
-    fail_unknown_option(given.name, option_names());
+    fail_unknown_option(given.name, option_names(kind));
 }
 
 // Typed, so that options which mean the same print the same wherever they came from.
@@ -195,17 +190,17 @@ Given given_in_json(const std::string& name, const nlohmann::json& value) {
     return given;
 }
 
-void apply_parameters(const nlohmann::json& parameters, OptimizeOptions& options) {
+void apply_parameters(const nlohmann::json& parameters, JobKind kind, OptimizeOptions& options) {
     require(parameters.is_object(), ErrorCode::option_invalid, "parameters",
             "parameters is {}; it takes an object with the algorithm's own parameters",
             shorten(print_json(parameters)));
     for (const auto& [id, value] : parameters.items())
-        apply(given_in_json(fmt::format("parameters.{}", id), value), options);
+        apply(given_in_json(fmt::format("parameters.{}", id), value), kind, options);
 }
 
 }  // namespace
 
-OptimizeOptions parse_options(const std::vector<std::pair<std::string, std::string>>& pairs) {
+OptimizeOptions parse_options(const std::vector<std::pair<std::string, std::string>>& pairs, JobKind kind) {
     OptimizeOptions options;
     std::map<std::string_view, std::string_view> seen;
     for (const auto& [name, value] : pairs) {
@@ -215,24 +210,24 @@ OptimizeOptions parse_options(const std::vector<std::pair<std::string, std::stri
         require(name != "parameters", ErrorCode::option_invalid, name,
                 "parameters takes an object in JSON only; here each parameter is an option of its own, "
                 "parameters.NAME");
-        apply(from_text(name, value), options);
+        apply(from_text(name, value), kind, options);
     }
     return finish(false, std::move(options));
 }
 
-OptimizeOptions parse_options_json(std::string_view json) {
+OptimizeOptions parse_options_json(std::string_view json, JobKind kind) {
     const nlohmann::json object = parse_json(json, {}, "options");
     require(object.is_object(), ErrorCode::option_invalid, "options",
             "options is {}; it takes an object, such as {{\"ratio\":0.5}}", shorten(print_json(object)));
     OptimizeOptions options;
     for (const auto& [name, value] : object.items()) {
         if (name == "parameters") {
-            apply_parameters(value, options);
+            apply_parameters(value, kind, options);
             continue;
         }
         require(!name.starts_with(parameter_prefix), ErrorCode::option_invalid, name,
                 "{} is how a query names a parameter; in JSON, parameters is an object", name);
-        apply(given_in_json(name, value), options);
+        apply(given_in_json(name, value), kind, options);
     }
     return finish(true, std::move(options));
 }

@@ -6,14 +6,16 @@
 #include <utility>
 #include <vector>
 
-#include "core/optimize/options.h"
+#include "proto/job.h"
 
 namespace coppice {
 
 // Names as in the contract; parameters.NAME for the algorithm's own. Throws option_unknown, option_invalid,
-// option_conflict with where = the option's name. Nothing is silently ignored. The result is validated.
-OptimizeOptions parse_options(const std::vector<std::pair<std::string, std::string>>& pairs);
-OptimizeOptions parse_options_json(std::string_view json);
+// option_conflict with where = the option's name. Nothing is silently ignored: an inspection takes the option
+// `entry` and no other. The result is validated.
+OptimizeOptions parse_options(const std::vector<std::pair<std::string, std::string>>& pairs,
+                              JobKind kind = JobKind::optimize);
+OptimizeOptions parse_options_json(std::string_view json, JobKind kind = JobKind::optimize);
 
 // Every option but the algorithm's own parameters, for help texts: what it is called and what it takes.
 struct OptionDescription {

@@ -72,8 +72,8 @@ std::string hint(std::string_view name, const std::vector<std::string_view>& kno
 
 void fail_unknown_option(std::string_view name, const std::vector<std::string_view>& known) {
     constexpr size_t longest = 64;  // of any option; a longer name is cut, and not compared
-    const std::string_view shown = name.substr(0, longest);
-    fail(ErrorCode::option_unknown, std::string(shown),
+    const std::string_view shown = name.empty() ? "\"\"" : name.substr(0, longest);
+    fail(ErrorCode::option_unknown, std::string(name.substr(0, longest)),
          fmt::format("{} is not an option{} (options are {})", shown, hint(shown, known),
                      fmt::join(known, ", ")));
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <string>
+
+#include "core/base/ascii.h"
 
 namespace coppice {
 
@@ -28,12 +28,6 @@ constexpr std::array rows = {
 
 const FormatRow& row(Format format) {
     return *std::find_if(rows.begin(), rows.end(), [&](const FormatRow& r) { return r.format == format; });
-}
-
-std::string lower(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
 }
 
 }  // namespace

@@ -49,13 +49,6 @@ InspectedMesh inspect_mesh(const Mesh& mesh, uint64_t instances) {
     return out;
 }
 
-uint64_t bytes_of(const Upload& upload) {
-    uint64_t bytes = upload.asset.bytes.size();
-    for (const UploadedFile& file : upload.resources) bytes += file.bytes.size();
-    if (upload.beside != nullptr) bytes += upload.beside->opened_bytes();
-    return bytes;
-}
-
 }  // namespace
 
 Inspection inspect(const Upload& upload, const ReadLimits& limits, const Watch& watch) {

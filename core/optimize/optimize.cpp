@@ -41,13 +41,6 @@ Upload with_entry(Upload upload, const OptimizeOptions& options) {
     return upload;
 }
 
-uint64_t bytes_of(const Upload& upload) {
-    uint64_t bytes = upload.asset.bytes.size();
-    for (const UploadedFile& file : upload.resources) bytes += file.bytes.size();
-    if (upload.beside != nullptr) bytes += upload.beside->opened_bytes();
-    return bytes;
-}
-
 Format output_format(const OptimizeOptions& options, Format input) {
     if (options.format) return *options.format;
     return input == Format::obj || input == Format::iobj ? Format::iobj : Format::glb;

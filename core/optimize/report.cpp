@@ -34,6 +34,13 @@ std::vector<uint64_t> instances_per_mesh(const Scene& scene) {
     return counts;
 }
 
+uint64_t bytes_of(const Upload& upload) {
+    uint64_t bytes = upload.asset.bytes.size();
+    for (const UploadedFile& file : upload.resources) bytes += file.bytes.size();
+    if (upload.beside != nullptr) bytes += upload.beside->opened_bytes();
+    return bytes;
+}
+
 uint64_t stored_copies(Format format, uint64_t instances) {
     if (format == Format::obj) return instances;
     return format == Format::iobj && instances == 0 ? 0 : 1;

@@ -4,9 +4,13 @@
 #include <span>
 #include <vector>
 
+#include "core/format/asset.h"
 #include "core/optimize/report.h"
 
 namespace coppice {
+
+// Of the asset and its resources; of the files beside it those that were read.
+uint64_t bytes_of(const Upload& upload);
 
 std::vector<uint64_t> instances_per_mesh(const Scene& scene);
 

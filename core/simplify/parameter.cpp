@@ -3,10 +3,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/number.h"
 
 namespace coppice {
 
@@ -40,14 +40,6 @@ std::string describe(const Parameter& p) {
     }
 }
 
-std::optional<double> parse_number(const std::string& text) {
-    double number = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, number);
-    if (error != std::errc() || stop != end) return {};
-    return number;
-}
-
 bool in_range(const Parameter& p, double number) {
     if (!std::isfinite(number)) return false;
     if (p.kind == Parameter::Kind::integer && number != std::floor(number)) return false;
@@ -66,7 +58,7 @@ std::optional<ParameterValue> parse_boolean(const ParameterValue& given) {
 std::optional<ParameterValue> parse_number(const Parameter& p, const ParameterValue& given) {
     std::optional<double> number;
     if (const double* d = std::get_if<double>(&given)) number = *d;
-    if (const std::string* text = std::get_if<std::string>(&given)) number = parse_number(*text);
+    if (const std::string* text = std::get_if<std::string>(&given)) number = coppice::parse_number(*text);
     if (!number || !in_range(p, *number)) return {};
     return *number;
 }

@@ -52,6 +52,21 @@ TEST(Options, of_json_mean_the_same_as_those_of_a_query) {
                                      {"algorithm", "its"}})));
 }
 
+TEST(Options, of_an_inspection_are_the_one_that_chooses_the_asset) {
+    EXPECT_EQ(parse_options({{"entry", "a.obj"}}, JobKind::inspect).entry, "a.obj");
+    const Error in_query = refusal([] {
+        parse_options({{"entry", "a.obj"}, {"ratio", "0.5"}}, JobKind::inspect);
+    });
+    EXPECT_EQ(in_query.code(), ErrorCode::option_invalid);
+    EXPECT_EQ(in_query.where(), "ratio");
+    EXPECT_EQ(in_query.message(), "ratio is an option of optimizing; an inspection takes entry alone");
+    const Error in_json =
+        refusal([] { parse_options_json(R"({"parameters":{"mode":"full"}})", JobKind::inspect); });
+    EXPECT_EQ(in_json.where(), "parameters.mode");
+    const Error unknown = refusal([] { parse_options({{"entri", "a.obj"}}, JobKind::inspect); });
+    EXPECT_EQ(unknown.message(), "entri is not an option; did you mean entry? (options are entry)");
+}
+
 TEST(Options, print_what_was_given_sorted_and_read_it_back) {
     const std::string text = R"({"algorithm":"its","parameters":{"mode":"faithful"},"ratio":0.1})";
     EXPECT_EQ(print_options(parse_options_json(text)), text);

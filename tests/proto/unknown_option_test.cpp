@@ -34,6 +34,10 @@ TEST(UnknownOption, tells_what_is_planned_from_what_is_misspelled) {
               "compression is not an option in this version (options are algorithm, ratio, triangles)");
 }
 
+TEST(UnknownOption, shows_that_a_name_is_empty) {
+    EXPECT_EQ(message_for(""), "\"\" is not an option (options are algorithm, ratio, triangles)");
+}
+
 TEST(UnknownOption, cuts_a_name_that_is_an_attack_rather_than_a_mistake) {
     EXPECT_LT(message_for(std::string(1'000'000, 'a')).size(), 200U);
 }

@@ -3,8 +3,8 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "core/base/ascii.h"
 #include "core/base/error.h"
 #include "core/format/resources.h"
 
@@ -49,10 +49,7 @@ void check_media_type(std::string_view header, const std::string& where) {
 }  // namespace
 
 std::optional<DataUri> parse_data_uri(std::string_view uri, const std::string& where) {
-    std::string scheme(uri.substr(0, 5));
-    std::transform(scheme.begin(), scheme.end(), scheme.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (scheme != "data:") return std::nullopt;
+    if (!equal_ignoring_case(uri.substr(0, 5), "data:")) return std::nullopt;
     const size_t comma = uri.find(',');
     require(comma != std::string_view::npos, ErrorCode::asset_malformed, where,
             "{} is a data URI without a comma", where);
@@ -61,9 +58,7 @@ std::optional<DataUri> parse_data_uri(std::string_view uri, const std::string& w
     if (is_base64) header.remove_suffix(7);
     check_media_type(header, where);
     DataUri result;
-    result.media_type = header.substr(0, header.find(';'));
-    std::transform(result.media_type.begin(), result.media_type.end(), result.media_type.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    result.media_type = lower(header.substr(0, header.find(';')));
     const std::string_view data = uri.substr(comma + 1);
     result.bytes = is_base64 ? decode_base64(data, where) : to_bytes(percent_decoded(data, where));
     return result;

@@ -4,21 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <optional>
 
+#include "core/base/ascii.h"
 #include "core/format/line_reader.h"
 
 namespace coppice {
 
 namespace {
-
-std::string lower(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
-}
 
 // Options of a map statement and how many values they take at least and at most.
 struct MapOption {
