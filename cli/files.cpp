@@ -1,16 +1,11 @@
 #include "cli/files.h"
 
-#include <unistd.h>
-
 #include <fstream>
 #include <system_error>
 
 #include "core/base/error.h"
-#include "core/format/archive.h"
 
 namespace coppice {
-
-namespace {
 
 namespace fs = std::filesystem;
 
@@ -25,43 +20,6 @@ std::optional<Bytes> read_file(const fs::path& path) {
     if (!file) return {};
     return bytes;
 }
-
-[[noreturn]] void fail_writing(const fs::path& path, const std::string& why) {
-    fail(ErrorCode::storage_failed, path.string(),
-         fmt::format("{} cannot be written: {}", path.string(), why));
-}
-
-bool write_bytes(const fs::path& path, ByteView bytes) {
-    std::ofstream file(path, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    return !file.fail();
-}
-
-size_t lay_out(const WrittenAsset& asset, const fs::path& path) {
-    const std::vector<NamedFile> files = read_zip(asset.bytes, generous_limits(), {});
-    const auto target = [&](const NamedFile& file) {
-        const bool is_asset =
-            file.path.find('/') == std::string::npos && fs::path(file.path).extension() == path.extension();
-        return is_asset ? path : path.parent_path() / file.path;
-    };
-    for (const NamedFile& file : files) {
-        if (target(file) == path) continue;
-        const std::optional<Bytes> there = read_file(target(file));
-        const bool is_ours = file.path.starts_with(path.stem().string() + ".");  // OUT.bin, OUT.mtl
-        if (there && !is_ours && *there != file.bytes) {
-            fail_writing(target(file), "another file is there; write into another folder, or to a .zip");
-        }
-    }
-    for (const NamedFile& file : files) {
-        std::error_code ignored;  // write_file says what is wrong
-        if (!target(file).parent_path().empty()) fs::create_directories(target(file).parent_path(), ignored);
-        write_file(target(file), file.bytes);
-    }
-    return files.size();
-}
-
-}  // namespace
 
 AssetFile::AssetFile(const fs::path& path) : path_(path) {
     std::optional<Bytes> bytes = read_file(path);
@@ -107,46 +65,6 @@ ReadLimits generous_limits() {
             .zip_entries = 1'000'000,
             .zip_bytes = 16 * many,
             .zip_ratio = 2000};
-}
-
-std::optional<Format> output_format_of(const fs::path& path) {
-    if (path.extension() == ".zip") return {};
-    const std::optional<Format> format = format_from_file_name(path.string());
-    require(format && is_writable(*format), ErrorCode::option_invalid, "output",
-            "the name {} asks for no format that is written; end it with .glb, .gltf, .obj, .iobj or .zip, "
-            "or give "
-            "--format",
-            path.filename().string());
-    return format;
-}
-
-size_t write_asset_file(const WrittenAsset& asset, const fs::path& path) {
-    if (asset.file_extension == "zip" && path.extension() != ".zip") return lay_out(asset, path);
-    write_file(path, asset.bytes);
-    return 1;
-}
-
-void write_file(const fs::path& path, ByteView bytes) {
-    std::error_code error;
-    // A device or a pipe is written to; only a file is replaced, and a link stays one.
-    const bool replaces = fs::is_regular_file(path, error) || !fs::exists(path, error);
-    const fs::path target =
-        fs::is_symlink(path, error) && replaces ? fs::weakly_canonical(path, error) : path;
-    if (!replaces) {
-        if (!write_bytes(path, bytes)) fail_writing(path, "it takes no bytes");
-        return;
-    }
-    fs::path partial = target;
-    partial += ".partial-" + std::to_string(getpid());
-    if (!write_bytes(partial, bytes)) {
-        fs::remove(partial, error);
-        fail_writing(path, "is its folder there, and is there room?");
-    }
-    fs::rename(partial, target, error);
-    if (!error) return;
-    const std::string why = error.message();
-    fs::remove(partial, error);
-    fail_writing(path, why);
 }
 
 }  // namespace coppice

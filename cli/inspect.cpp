@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/files.h"
 #include "cli/progress_bar.h"
+#include "cli/summary.h"
 #include "proto/report.h"
 
 namespace coppice {
@@ -18,12 +19,11 @@ namespace {
 
 void print_for_people(const Inspection& inspection, std::ostream& out) {
     const AssetSummary& s = inspection.summary;
-    fmt::print(out, "{}, {}: {} unique meshes, {} instances, {} nodes, {} materials, {} images ({})\n",
-               id(s.format), print_bytes(s.bytes), print_count(s.meshes), print_count(s.instances),
-               print_count(inspection.nodes), print_count(inspection.materials),
-               print_count(inspection.images), print_bytes(s.texture_bytes));
-    fmt::print(out, "triangles: {} stored, {} drawn; vertices {}, wedges {}\n",
-               print_count(s.unique_triangles), print_count(s.rendered_triangles),
+    fmt::print(out, "{}, {}: {}, {} nodes, {} materials, {} images ({})\n", id(s.format),
+               print_bytes(s.bytes), print_meshes(s), print_count(inspection.nodes),
+               print_count(inspection.materials), print_count(inspection.images),
+               print_bytes(s.texture_bytes));
+    fmt::print(out, "triangles: {}; vertices {}, wedges {}\n", print_triangles(s),
                print_count(s.unique_vertices), print_count(s.wedges));
     const Bounds& box = inspection.bounds;
     if (!box.empty()) {
@@ -56,9 +56,7 @@ int inspect_file(const InspectFlags& flags, const Terminal& terminal) {
         return 0;
     }
     print_for_people(inspection, terminal.out);
-    for (const Warning& warning : inspection.warnings) {
-        fmt::print(terminal.err, "warning {}: {}\n", warning.code, warning.message);
-    }
+    print_warnings(inspection.warnings, terminal.err);
     return 0;
 }
 

@@ -9,7 +9,10 @@
 
 #include "cli/commands.h"
 #include "cli/files.h"
+#include "cli/output.h"
 #include "cli/progress_bar.h"
+#include "cli/summary.h"
+#include "cli/write_files.h"
 #include "core/simplify/registry.h"
 #include "proto/options.h"
 #include "proto/report.h"
@@ -57,7 +60,7 @@ void add_options(CLI::App& command, OptimizeFlags& flags) {
 
 OptimizeOptions options_of(const OptimizeFlags& flags) {
     OptimizeOptions options = parse_options({flags.options.begin(), flags.options.end()});
-    if (!options.format) options.format = output_format_of(flags.output);
+    options.format = output_format(flags.output, options.format);
     options.base_name = std::filesystem::path(flags.output).stem().string();
     options.threads = flags.threads;
     return options;
@@ -73,17 +76,14 @@ void summarize(const Report& report, const OptimizeFlags& flags, std::ostream& e
     const AssetSummary &in = report.input, &out = report.output;
     fmt::print(err, "{} {} -> {} {}{}\n", flags.input, print_bytes(in.bytes), flags.output,
                print_bytes(out.bytes), percent(out.bytes, in.bytes));
-    fmt::print(err, "{} unique meshes, {} instances\n", print_count(out.meshes), print_count(out.instances));
+    fmt::print(err, "{}\n", print_meshes(out));
     fmt::print(err, "stored triangles {} -> {}{}, drawn {} -> {}\n", print_count(in.unique_triangles),
                print_count(out.unique_triangles), percent(out.unique_triangles, in.unique_triangles),
                print_count(in.rendered_triangles), print_count(out.rendered_triangles));
     const StageTimes& t = report.timing_ms;
     fmt::print(err, "{}: read {:.0f} ms, simplify {:.0f} ms, write {:.0f} ms, total {:.0f} ms\n",
                report.algorithm, t.read, t.simplify, t.write, t.total);
-    for (const Warning& warning : report.warnings) {
-        fmt::print(err, "warning {}: {}{}\n", warning.code, warning.message,
-                   warning.where.empty() ? "" : " (at " + warning.where + ")");
-    }
+    print_warnings(report.warnings, err);
 }
 
 void write_report(const Report& report, const std::string& path, const Terminal& terminal) {
@@ -118,7 +118,10 @@ Action add_optimize(CLI::App& app, const Terminal& terminal) {
         ->add_option("IN", flags->input,
                      "A .glb, .gltf, .obj, .iobj, .ply, .stl, or a .zip of one with its resources")
         ->required();
-    command->add_option("-o,--output", flags->output, "Where to: .glb, .gltf, .obj, .iobj or .zip")
+    command
+        ->add_option("-o,--output", flags->output,
+                     "Where to; its ending is the format: .glb, .gltf, .obj, .iobj, or .zip of a gltf (or "
+                     "of an obj or iobj, with --format). Another name takes --format")
         ->required();
     command->add_option("--threads", flags->threads,
                         "How many threads; 0: one per core. Never changes the result");

@@ -7,7 +7,8 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/files.h"
+#include "cli/output.h"
+#include "cli/summary.h"
 #include "core/optimize/report.h"
 
 namespace coppice {
@@ -21,18 +22,14 @@ struct SampleFlags {
 
 int write_sample(const SampleFlags& flags, const Terminal& terminal) {
     const std::filesystem::path path = flags.output;
-    const Format format = output_format_of(path).value_or(Format::gltf);
+    const Format format = output_format(path, {});
     const Scene scene = make_sample(flags.name, flags.options);
     const WrittenAsset asset = write_asset(scene, {.format = format, .base_name = path.stem().string()}, {});
     write_asset_file(asset, path);
     const AssetSummary summary = summarize(scene, format, asset.bytes.size());
-    fmt::print(terminal.err, "{} {}: {} unique meshes, {} instances, {} triangles stored, {} drawn\n",
-               flags.output, print_bytes(summary.bytes), print_count(summary.meshes),
-               print_count(summary.instances), print_count(summary.unique_triangles),
-               print_count(summary.rendered_triangles));
-    for (const Warning& warning : asset.warnings) {
-        fmt::print(terminal.err, "warning {}: {}\n", warning.code, warning.message);
-    }
+    fmt::print(terminal.err, "{} {}: {}; triangles: {}\n", flags.output, print_bytes(summary.bytes),
+               print_meshes(summary), print_triangles(summary));
+    print_warnings(asset.warnings, terminal.err);
     return 0;
 }
 

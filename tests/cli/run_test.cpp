@@ -1,6 +1,9 @@
 #include "cli/run.h"
 
 #include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -59,14 +62,88 @@ TEST_F(CommandLine, makes_a_sample_and_optimizes_it) {
     EXPECT_EQ(out(), "");
 }
 
-TEST_F(CommandLine, takes_the_format_from_the_name_unless_it_is_told) {
+TEST_F(CommandLine, takes_the_format_from_the_names_ending) {
     make_sample("in.glb");
     ASSERT_EQ(run({"optimize", path("in.glb"), "-o", path("out.iobj")}), 0) << err();
     EXPECT_THAT(content("out.iobj"), StartsWith("#@iobj 1.0"));
-    ASSERT_EQ(run({"optimize", path("in.glb"), "-o", path("out.bin"), "--format", "glb"}), 0) << err();
-    EXPECT_THAT(content("out.bin"), StartsWith("glTF"));
-    EXPECT_EQ(run({"optimize", path("in.glb"), "-o", path("out.stl")}), 2);
-    EXPECT_THAT(err(), HasSubstr(".glb, .gltf, .obj, .iobj or .zip"));
+    ASSERT_EQ(run({"optimize", path("in.glb"), "-o", path("out.GLB"), "--format", "glb"}), 0) << err();
+    EXPECT_THAT(content("out.GLB"), StartsWith("glTF"));
+}
+
+TEST_F(CommandLine, takes_the_format_that_is_told_for_a_name_that_asks_for_none) {
+    make_sample("in.glb");
+    ASSERT_EQ(run({"optimize", path("in.glb"), "-o", path("out.tmp"), "--format", "glb"}), 0) << err();
+    EXPECT_THAT(content("out.tmp"), StartsWith("glTF"));
+    ASSERT_EQ(run({"optimize", path("in.glb"), "-o", path("bare"), "--format", "gltf"}), 0) << err();
+    EXPECT_THAT(content("bare"), StartsWith("PK"));
+    EXPECT_FALSE(fs::exists(folder_ / "bare.bin"));
+}
+
+TEST_F(CommandLine, refuses_a_name_that_contradicts_the_format_and_says_what_would_be_right) {
+    make_sample("in.glb");
+    const auto refused = [&](const std::string& name, const std::string& format) {
+        std::vector<std::string> arguments = {"optimize", path("in.glb"), "-o", path(name)};
+        if (!format.empty()) arguments.insert(arguments.end(), {"--format", format});
+        EXPECT_EQ(run(arguments), 2) << name << " " << format;
+        EXPECT_FALSE(fs::exists(folder_ / name));
+        return err();
+    };
+    EXPECT_THAT(refused("x.glb", "gltf"), HasSubstr("x.glb asks for glb, but --format is gltf; end the name "
+                                                    "with .gltf, or leave --format out"));
+    EXPECT_THAT(refused("x.zip", "glb"), HasSubstr("end the name with .glb, or give --format gltf"));
+    EXPECT_THAT(refused("x.stl", ""), HasSubstr("is read and not written"));
+    EXPECT_THAT(refused("x.tmp", ""), HasSubstr(".glb, .gltf, .obj, .iobj or .zip, or give --format"));
+    EXPECT_FALSE(fs::exists(folder_ / "x.gltf"));
+}
+
+TEST_F(CommandLine, writes_a_zip_of_a_gltf_or_of_the_obj_that_is_told) {
+    make_sample("in.glb");
+    ASSERT_EQ(run({"optimize", path("in.glb"), "-o", path("out.zip")}), 0) << err();
+    EXPECT_THAT(content("out.zip"), StartsWith("PK"));
+    EXPECT_THAT(content("out.zip"), HasSubstr("out.gltf"));
+    ASSERT_EQ(run({"optimize", path("in.glb"), "-o", path("objs.zip"), "--format", "iobj"}), 0) << err();
+    EXPECT_THAT(content("objs.zip"), HasSubstr("objs.iobj"));
+    std::ofstream(folder_ / "plain.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    ASSERT_EQ(run({"optimize", path("plain.obj"), "-o", path("plain.zip"), "--format", "obj"}), 0) << err();
+    EXPECT_THAT(content("plain.zip"), StartsWith("PK"));  // though there is nothing beside the OBJ
+    EXPECT_EQ(run({"inspect", path("plain.zip")}), 0) << err();
+}
+
+TEST_F(CommandLine, replaces_a_gltf_and_its_resources_as_one) {
+    make_sample("scene.gltf");
+    fs::create_directory(folder_ / "out");
+    const auto optimize = [&](const char* ratio) {
+        return run({"optimize", path("scene.gltf"), "-o", path("out/small.gltf"), "--ratio", ratio});
+    };
+    ASSERT_EQ(optimize("0.9"), 0) << err();
+    const std::string document = content("out/small.gltf"), binary = content("out/small.bin");
+    ASSERT_EQ(optimize("0.5"), 0) << err();
+    EXPECT_LT(content("out/small.bin").size(), binary.size());
+    ASSERT_EQ(optimize("0.9"), 0) << err();
+
+    fs::remove(folder_ / "out" / "steel.png");
+    fs::create_directory(folder_ / "out" / "steel.png");  // one of the files cannot be written
+    EXPECT_EQ(optimize("0.5"), 1);
+    EXPECT_THAT(err(), HasSubstr("steel.png cannot be written: a folder has this name"));
+    EXPECT_TRUE(content("out/small.gltf") == document);
+    EXPECT_TRUE(content("out/small.bin") == binary);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "out"), {}), 4) << "something is left over";
+}
+
+TEST_F(CommandLine, exits_with_1_where_the_port_of_the_service_is_taken_and_says_what_would_be_right) {
+    const int holder = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t bytes = sizeof address;
+    ASSERT_EQ(::bind(holder, reinterpret_cast<const sockaddr*>(&address), bytes), 0);
+    ASSERT_EQ(::listen(holder, 1), 0);
+    ASSERT_EQ(::getsockname(holder, reinterpret_cast<sockaddr*>(&address), &bytes), 0);
+    const std::string taken = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+    EXPECT_EQ(run({"serve", "--listen", taken, "--data", path("data")}), 1);
+    EXPECT_THAT(err(), HasSubstr("cannot listen on " + taken + ": Address already in use; end what listens"));
+    EXPECT_THAT(err(), HasSubstr("--listen ADDRESS:PORT"));
+    ::close(holder);
 }
 
 TEST_F(CommandLine, lays_files_out_beside_a_gltf_and_reads_them_from_there) {
