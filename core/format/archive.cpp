@@ -121,7 +121,7 @@ std::vector<Entry> checked_entries(zip_t* zip, ByteView bytes, const ReadLimits&
         total += entry.bytes;
         if (!is_folder(entry.path) && !is_shadow(entry.path)) entries.push_back(std::move(entry));
     }
-    require(total <= always_fine_bytes || total / limits.zip_ratio <= bytes.size(), too_large, "",
+    require(total <= always_fine_bytes || total / limits.zip_ratio <= bytes.size(), too_large, "asset",
             "the zip unpacks from {} to {} bytes, over the limit zip_ratio of {}:1", bytes.size(), total,
             limits.zip_ratio);
     return entries;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
+#include "core/base/ascii.h"
 #include "core/base/error.h"
 #include "core/format/gltf_version.h"
 #include "core/format/iobj/directive.h"
@@ -59,12 +59,6 @@ constexpr std::array obj_words = {
     "v"sv,      "vt"sv,     "vn"sv,    "f"sv,        "fo"sv,       "o"sv,         "g"sv,   "s"sv,
     "l"sv,      "p"sv,      "vp"sv,    "vw"sv,       "usemtl"sv,   "mtllib"sv,    "lod"sv, "cstype"sv,
     "usemap"sv, "maplib"sv, "bevel"sv, "c_interp"sv, "d_interp"sv, "shadow_obj"sv};
-
-std::string lower(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
-}
 
 bool contains(std::string_view text, std::string_view part) {
     return text.find(part) != text.npos;
@@ -141,17 +135,24 @@ bool agree(Format content, Format told) {
     return content == told || (content == Format::iobj && told == Format::obj);
 }
 
+// For messages: a body that is no file has no name.
+std::string place_of(std::string_view file_name) {
+    return file_name.empty() ? "asset" : std::string(file_name);
+}
+
 Format checked_format(Format content, std::string_view media_type, std::string_view file_name) {
     constexpr auto mismatch = ErrorCode::asset_format_mismatch;
+    const std::string where = place_of(file_name);
     if (!media_type.empty() && !is_zip_media_type(media_type)) {
         const std::optional<Format> told = format_from_media_type(media_type);
-        require(told && agree(content, *told), mismatch, "",
-                "the content is {} ({}), but the media type says \"{}\"", id(content),
-                coppice::media_type(content), media_type);
+        require(told && agree(content, *told), mismatch, where,
+                "the content is {}, but the media type says \"{}\"; send it as {}, or with no type",
+                id(content), media_type, coppice::media_type(content));
     }
     const std::optional<Format> named = format_from_file_name(file_name);
-    require(!named || agree(content, *named), mismatch, "", "the content is {}, but the file is named \"{}\"",
-            id(content), file_name);
+    require(!named || agree(content, *named), mismatch, where,
+            "the content is {}, but the file is named \"{}\"; end its name with .{}", id(content), file_name,
+            id(content));
     return content;
 }
 
@@ -159,11 +160,12 @@ Format checked_format(Format content, std::string_view media_type, std::string_v
 Format told_format(std::string_view media_type, std::string_view file_name) {
     const std::optional<Format> told = format_from_media_type(media_type);
     const std::optional<Format> named = format_from_file_name(file_name);
-    require(!told || !named || *told == *named, ErrorCode::asset_format_mismatch, "",
-            "the media type says {}, but the file is named \"{}\"", told ? id(*told) : "", file_name);
+    require(!told || !named || *told == *named, ErrorCode::asset_format_mismatch, place_of(file_name),
+            "the media type says {}, but the file is named \"{}\"; give both the same, or one of them",
+            told ? id(*told) : "", file_name);
     if (told) return *told;
     if (named && media_type.empty()) return *named;
-    fail(ErrorCode::asset_unsupported, "",
+    fail(ErrorCode::asset_unsupported, place_of(file_name),
          fmt::format("the content is of no format that is read{}; {}",
                      media_type.empty() ? std::string() : fmt::format(", and neither is \"{}\"", media_type),
                      what_is_read));
@@ -203,7 +205,7 @@ bool is_zip_media_type(std::string_view told) {
 Format detect(ByteView bytes, std::string_view media_type, std::string_view file_name) {
     require(!bytes.empty(), ErrorCode::asset_empty, "", "the asset is empty; {}", what_is_read);
     const Recognised content = recognise(bytes);
-    require(content.unsupported.empty(), ErrorCode::asset_unsupported, "",
+    require(content.unsupported.empty(), ErrorCode::asset_unsupported, place_of(file_name),
             "the content is {}, which is not read; {}", content.unsupported, what_is_read);
     require(!content.is_zip, ErrorCode::asset_unsupported, "",
             "\"{}\" is a zip inside a zip, which is not read", file_name);

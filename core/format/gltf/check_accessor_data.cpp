@@ -90,7 +90,7 @@ void check_accessor_data(Parsed& parsed, const Watch& watch) {
         std::vector<Range> ranges;
         const uint64_t not_finite = find_ranges(accessor, ranges, watch);
         demand(not_finite == 0 || parsed.repairs[i].zero_non_finite, where,
-               "has {} numbers that are infinite or not a number", not_finite);
+               "has {} numbers that are infinite or not a number; all of them must be finite", not_finite);
         if (not_finite > 0)
             parsed.warn(
                 "repair.non_finite",

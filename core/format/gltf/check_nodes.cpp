@@ -34,7 +34,8 @@ void check_depths(const std::vector<uint32_t>& parents, const ReadLimits& limits
     for (uint32_t start = 0; start < parents.size(); ++start) {
         std::vector<uint32_t> path;
         for (uint32_t node = start; node != none && depth[node] == 0; node = parents[node]) {
-            demand(path.size() < parents.size(), pointer("nodes", start), "is part of a loop of children");
+            demand(path.size() < parents.size(), pointer("nodes", start),
+                   "is part of a loop of children; no node may be its own ancestor");
             path.push_back(node);
         }
         for (size_t i = path.size(); i-- > 0;) {

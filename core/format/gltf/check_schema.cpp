@@ -143,8 +143,8 @@ class SchemaCheck {
                 value = static_cast<uint64_t>(number);
         }
         if (value.is_number_unsigned())
-            demand(value.get<uint64_t>() <= static_cast<uint64_t>(largest_integer), "is out of range: {}",
-                   shown(value));
+            demand(value.get<uint64_t>() <= static_cast<uint64_t>(largest_integer),
+                   "is {}; a number may be at most {:.0f}", shown(value), largest_integer);
     }
 
     void integer(Json& value, const Property& property) const {
