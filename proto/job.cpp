@@ -76,12 +76,14 @@ std::string print_job(const Job& job) {
     json["finished_at"] = time_or_null(job.finished_at);
     json["options"] = nlohmann::ordered_json::parse(print_options(job.options));
     json["links"] = links(job);
-    std::string text = print_json(json);
-    // Reports can be long and are JSON already: they go in as they are.
-    text.pop_back();
-    if (job.report) text += ",\"report\":" + *job.report;
-    if (job.problem) text += ",\"problem\":" + print_problem(*job.problem);
-    return text + "}";
+    if (job.problem) json["problem"] = nlohmann::ordered_json::parse(print_problem(*job.problem));
+    return print_json(json);
+}
+
+PrintedAroundReport print_around_report(const Job& job) {
+    std::string before = print_job(job);
+    before.pop_back();
+    return {before + ",\"report\":", "}"};
 }
 
 }  // namespace coppice

@@ -32,14 +32,20 @@ struct Job {
     std::optional<Time> started_at = {};
     std::optional<Time> finished_at = {};
     OptimizeOptions options = {};
-    std::optional<std::string> report = {};  // JSON text, once succeeded (for inspect: the inspection)
-    std::optional<Problem> problem = {};     // once failed or cancelled
+    std::optional<Problem> problem = {};  // once failed or cancelled
 };
 
 bool is_finished(JobStatus status);
 
 // {id, kind, status, stage, progress, attempts, created_at, ..., options, links {self, result, report},
-// report?, problem?}
+// problem?}
 std::string print_job(const Job& job);
+
+// What stands before and after the member `report`, once the job succeeded: its JSON text (of an inspection:
+// the inspection) can be long, and goes in as it is.
+struct PrintedAroundReport {
+    std::string before, after;
+};
+PrintedAroundReport print_around_report(const Job& job);
 
 }  // namespace coppice

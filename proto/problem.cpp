@@ -86,6 +86,11 @@ int http_status(ErrorCode code) {
     return row(code).status;
 }
 
+bool is_our_fault(ErrorCode code) {
+    return code == ErrorCode::storage_full || code == ErrorCode::storage_failed ||
+           code == ErrorCode::job_quarantined || code == ErrorCode::internal;
+}
+
 std::string_view title(ErrorCode code) {
     return row(code).title;
 }

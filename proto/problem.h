@@ -14,6 +14,7 @@ struct Problem {
 };
 
 int http_status(ErrorCode code);         // complete: a code without a status does not compile
+bool is_our_fault(ErrorCode code);       // something broke here: what the log has to know
 std::string_view title(ErrorCode code);  // short, the same for every occurrence
 
 Problem to_problem(const Error& error);

@@ -48,7 +48,7 @@ Log::Fields describe(const Exchange& exchange) {
                           {"ms", exchange.time.count() * 1000},
                           {"address", exchange.remote_address}};
     if (!exchange.job.empty()) fields.emplace_back("job", exchange.job);
-    if (!exchange.internal_error.empty()) fields.emplace_back("error", exchange.internal_error);
+    if (!exchange.fault.empty()) fields.emplace_back("error", exchange.fault);
     return fields;
 }
 
@@ -62,14 +62,14 @@ struct Service::State {
           blobs(config.data),
           store({.queued = config.queue_length}, parts.now),
           services{store, blobs, metrics, route_settings(config), draining.get_token(), ended.get_token()},
-          runner(store, parts.work ? std::move(parts.work) : real_work(),
+          runner(store, blobs, parts.work ? std::move(parts.work) : real_work(),
                  {.slots = slots(config), .job_time = config.job_time}, *log, metrics),
           http(make_router(services), config.http, [this](const Exchange& exchange) { observe(exchange); }) {}
 
     WorkFunction real_work() {
         const unsigned threads = std::max(1U, cores() / slots(config));
-        return [this, threads](const JobRecord& record, const Watch& watch) {
-            return work(record, blobs, config.read, threads, watch);
+        return [this, threads](const JobRecord& record, BlobStore& store_of_bytes, const Watch& watch) {
+            return work(record, store_of_bytes, config.read, threads, watch);
         };
     }
 
@@ -77,8 +77,7 @@ struct Service::State {
         metrics.request_done(exchange.method, exchange.route, exchange.status, exchange.time.count(),
                              exchange.bytes_in, exchange.bytes_out);
         const auto fields = describe(exchange);
-        exchange.status >= 500 && !exchange.internal_error.empty() ? log->error("request", fields)
-                                                                   : log->info("request", fields);
+        exchange.fault.empty() ? log->info("request", fields) : log->error("request", fields);
     }
 
     void tidy_now_and_then(const std::stop_token& stop) {

@@ -4,11 +4,11 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <sstream>
 
 #include "core/base/error.h"
+#include "core/base/number.h"
 
 namespace coppice {
 namespace {
@@ -27,13 +27,11 @@ struct Setting {
 }
 
 uint64_t parse_number(std::string_view name, const std::string& text, uint64_t least, uint64_t most) {
-    uint64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size() || number < least ||
-        number > most) {
+    const auto number = parse_whole_number(text);
+    if (!number || *number < least || *number > most) {
         fail_invalid(name, text, fmt::format("a whole number from {} to {}", least, most));
     }
-    return number;
+    return *number;
 }
 
 // member: a callable that gives the reference into a Config.
@@ -115,8 +113,10 @@ std::vector<Setting> make_settings() {
                  COPPICE_MEMBER(http.header_time)),
         duration("http_body_ms", "time for the body of a request", 10, 86'400'000,
                  COPPICE_MEMBER(http.body_time)),
-        number("http_bytes_per_second", "slowest rate of a client, after 10 s", 1, many,
+        number("http_bytes_per_second", "slowest rate of a client, both ways", 1, many,
                COPPICE_MEMBER(http.bytes_per_second)),
+        duration("http_slow_ms", "how long a client may be slower; ten times as long once it was fast", 10,
+                 600'000, COPPICE_MEMBER(http.slow_time)),
         duration("http_idle_ms", "time between two requests of a connection", 10, 600'000,
                  COPPICE_MEMBER(http.idle_time)),
         number("http_connections", "connections at the same time", 1, 10'000,

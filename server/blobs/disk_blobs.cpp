@@ -69,17 +69,6 @@ class DiskReader final : public BlobReader {
 
 }  // namespace
 
-Descriptor::~Descriptor() {
-    if (is_open()) ::close(number_);
-}
-
-Descriptor::Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-}
-
 class DiskBlobs::Writer final : public BlobWriter {
   public:
     Writer(DiskBlobs& store, std::filesystem::path incoming)

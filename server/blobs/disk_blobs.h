@@ -8,24 +8,10 @@
 #include <mutex>
 #include <string>
 
+#include "core/base/descriptor.h"
 #include "server/blobs/blob_store.h"
 
 namespace coppice {
-
-// An open file descriptor.
-class Descriptor {
-  public:
-    explicit Descriptor(int number = -1) : number_(number) {}
-    ~Descriptor();
-    Descriptor(Descriptor&& other) noexcept;
-    Descriptor& operator=(Descriptor&& other) noexcept;
-
-    int number() const { return number_; }
-    bool is_open() const { return number_ >= 0; }
-
-  private:
-    int number_;
-};
 
 class DiskBlobs final : public BlobStore {
   public:

@@ -1,6 +1,5 @@
 #include "server/http/answer.h"
 
-#include <algorithm>
 #include <array>
 #include <ctime>
 #include <new>
@@ -8,13 +7,8 @@
 namespace coppice {
 namespace {
 
-bool has(const Response& response, std::string_view name) {
-    return std::any_of(response.headers.begin(), response.headers.end(),
-                       [&](const auto& header) { return header.first == name; });
-}
-
 void set_default(Response& response, const char* name, std::string value) {
-    if (!has(response, name)) response.set(name, std::move(value));
+    if (!response.has(name)) response.set(name, std::move(value));
 }
 
 std::string http_date() {
@@ -37,38 +31,37 @@ void set_problem(Response& response, const Problem& problem, int status) {
     response.content_type = "application/problem+json";
     response.body = print_problem(problem, status);
     response.content.reset();
+    if (is_our_fault(problem.code)) response.fault = problem.detail;
     if (response.status == 503 || response.status == 429) set_default(response, "Retry-After", "2");
 }
 
-std::string set_problem_of_current_exception(Response& response, const std::string& request_id) {
+void set_problem_of_current_exception(Response& response, const std::string& request_id) {
     try {
         throw;
     } catch (const Error& error) {
         set_problem(response, to_problem(error));
-        return error.code() == ErrorCode::internal ? error.message() : std::string();
     } catch (const std::exception& exception) {
         set_problem(response, to_problem(exception, request_id));
-        return exception.what();
+        response.fault = exception.what();
     } catch (...) {
         set_problem(response,
                     {ErrorCode::internal, "something went wrong; the log knows it as " + request_id, {}});
-        return "not a std::exception";
+        response.fault = "not a std::exception";
     }
 }
 
-Answered answer(const Router& router, Request& request, Response& response, bool only_always) {
-    Answered done;
+std::string answer(const Router& router, Request& request, Response& response, bool only_always) {
+    std::string pattern;
     try {
         const Route& route = router.find(request, response);
-        done.route = route.pattern;
+        pattern = route.pattern;
         require(!only_always || route.always, ErrorCode::queue_full, "",
-                "the service has as many connections as it takes (http_connections, "
-                "http_connections_per_address); try again soon");
+                "the service has as many connections as it takes (http_connections); try again soon");
         route.handler(request, response);
     } catch (...) {
-        done.internal_error = set_problem_of_current_exception(response, request.id);
+        set_problem_of_current_exception(response, request.id);
     }
-    return done;
+    return pattern;
 }
 
 void set_common_headers(Response& response, const std::string& request_id) {

@@ -10,21 +10,16 @@
 
 namespace coppice {
 
-void set_problem(Response& response, const Problem& problem);  // with the status of its code
+// With the status of its code, or another. What is our fault goes to the log too.
+void set_problem(Response& response, const Problem& problem);
 void set_problem(Response& response, const Problem& problem, int status);
 
-struct Answered {
-    std::string route;           // its pattern; empty where none matched
-    std::string internal_error;  // what the log has to know and the client must not
-};
+// For use in a catch block: sets the problem of the exception that is being handled.
+void set_problem_of_current_exception(Response& response, const std::string& request_id);
 
-// Never throws. only_always: connections are over their limit, and routes that are not Route::always answer
-// 503.
-Answered answer(const Router& router, Request& request, Response& response, bool only_always);
-
-// For use in a catch block: sets the problem of the exception that is being handled and returns what the log
-// needs.
-std::string set_problem_of_current_exception(Response& response, const std::string& request_id);
+// Returns the route's pattern; empty where none matched. Never throws. only_always: connections are over
+// their limit, and routes that are not Route::always answer 503.
+std::string answer(const Router& router, Request& request, Response& response, bool only_always);
 
 // Header fields that every answer carries.
 void set_common_headers(Response& response, const std::string& request_id);

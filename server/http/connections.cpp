@@ -6,11 +6,11 @@ namespace coppice {
 
 Connections::Verdict Connections::open(int socket, const std::string& address) {
     const std::scoped_lock lock(mutex_);
+    size_t& from_address = per_address_[address];
+    if (from_address >= limits_.connections_per_address) return Verdict::too_many_from_address;
     open_[socket] = Open{};
-    const size_t from_address = ++per_address_[address];
-    if (open_.size() > limits_.connections) return Verdict::too_many;
-    if (from_address > limits_.connections_per_address) return Verdict::too_many_from_address;
-    return Verdict::welcome;
+    ++from_address;
+    return open_.size() > limits_.connections ? Verdict::too_many : Verdict::welcome;
 }
 
 void Connections::close(int socket, const std::string& address) {
@@ -39,6 +39,11 @@ void Connections::stop_idle() {
     for (const auto& [socket, state] : open_) {
         if (state.idle) ::shutdown(socket, SHUT_RD);
     }
+}
+
+bool Connections::is_stopping() {
+    const std::scoped_lock lock(mutex_);
+    return stopping_;
 }
 
 bool Connections::wait_until_empty(std::chrono::milliseconds at_most) {

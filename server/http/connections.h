@@ -18,14 +18,17 @@ class Connections {
 
     enum class Verdict { welcome, too_many, too_many_from_address };
 
+    // Counts the connection, unless its address has as many as it may have.
     Verdict open(int socket, const std::string& address);
-    void close(int socket, const std::string& address);  // before the descriptor is closed
+    // Of one that counts; before its descriptor is closed.
+    void close(int socket, const std::string& address);
 
     // Between requests stop_idle() may end it. False: it already has.
     bool begin_idle(int socket);
     void end_idle(int socket);
 
     void stop_idle();  // from now on, every connection ends once it is idle
+    bool is_stopping();
     bool wait_until_empty(std::chrono::milliseconds at_most);
     void cut_off_all();
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
+#include "core/base/ascii.h"
 #include "core/base/error.h"
+#include "core/base/number.h"
 
 namespace coppice {
 namespace {
@@ -24,18 +25,6 @@ bool has_control_characters(std::string_view text) {
         const auto byte = static_cast<unsigned char>(c);
         return (byte < 0x20 && c != '\t') || byte == 0x7f;
     });
-}
-
-bool equal_ignoring_case(std::string_view a, std::string_view b) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [&](char x, char y) { return lower(x) == lower(y); });
-}
-
-std::string_view trim(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 // Lines end with CRLF and nothing else: a bare CR or LF is where two parsers differ.
@@ -62,10 +51,19 @@ std::vector<std::string_view> split_lines(std::string_view bytes, const HttpLimi
     return lines;
 }
 
+// "http://host/path", as it is sent to proxies, is taken too (RFC 9112, section 3.2.2); the host tells us
+// nothing.
+std::string_view origin_form(std::string_view target) {
+    constexpr std::string_view scheme = "http://";
+    if (!equal_ignoring_case(target.substr(0, scheme.size()), scheme)) return target;
+    target.remove_prefix(scheme.size());
+    const auto path = target.find_first_of("/?");
+    return path == std::string_view::npos ? "/" : target.substr(path);
+}
+
 void parse_target(Head& head) {
-    require(head.target.size() > 0 && head.target[0] == '/', malformed, "",
-            "the request target must begin with '/'");
-    const std::string_view target = head.target;
+    const std::string_view target = origin_form(head.target);
+    require(target.starts_with('/'), malformed, "", "the request target must begin with '/'");
     const auto question = target.find('?');
     head.path = percent_decode(target.substr(0, question), false);
     if (question == std::string_view::npos) return;
@@ -124,12 +122,9 @@ void parse_framing(Head& head, bool is_http_1_1) {
         head.chunked = true;
     }
     if (lengths == 1) {
-        const auto text = *headers.find("content-length");
-        const auto [end, error] =
-            std::from_chars(text.data(), text.data() + text.size(), head.content_length);
-        require(!text.empty() && text[0] >= '0' && text[0] <= '9' && error == std::errc() &&
-                    end == text.data() + text.size(),
-                malformed, "Content-Length", "Content-Length must be a number of bytes");
+        const auto bytes = parse_whole_number(*headers.find("content-length"));
+        require(bytes.has_value(), malformed, "Content-Length", "Content-Length must be a number of bytes");
+        head.content_length = *bytes;
     }
 }
 

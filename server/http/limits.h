@@ -17,7 +17,8 @@ struct HttpLimits {
 
     std::chrono::milliseconds header_time{10'000};  // from the first chance to send them to the empty line
     std::chrono::milliseconds body_time{900'000};   // for the whole body, however steadily it comes
-    uint64_t bytes_per_second = 1000;               // after 10 s of grace, both ways
+    uint64_t bytes_per_second = 1000;               // both ways
+    std::chrono::milliseconds slow_time{10'000};    // for so long, a client may be slower
     std::chrono::milliseconds idle_time{2'000};     // between two requests of a connection
 
     size_t connections = 512;

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/base/ascii.h"
+
 namespace coppice {
 
 void Headers::add(std::string_view name, std::string value) {
-    std::string lower(name);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    fields_.emplace_back(std::move(lower), std::move(value));
+    fields_.emplace_back(lower(name), std::move(value));
 }
 
 std::optional<std::string_view> Headers::find(std::string_view name) const {
@@ -38,6 +37,11 @@ const std::string& Request::path_parameter(std::string_view name) const {
     const auto found = path_parameters.find(name);
     assert(found != path_parameters.end());
     return found->second;
+}
+
+bool Response::has(std::string_view name) const {
+    return std::any_of(headers.begin(), headers.end(),
+                       [&](const auto& header) { return header.first == name; });
 }
 
 void Response::set(std::string name, std::string value) {

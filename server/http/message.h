@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/bytes.h"
+#include "server/http/content.h"
 
 namespace coppice {
 
@@ -57,13 +58,6 @@ struct Request {
     const std::string& path_parameter(std::string_view name) const;  // one of the route's own
 };
 
-// Bytes that are read while they are sent.
-struct Content {
-    uint64_t bytes = 0;
-    // Fills `into` from `offset`; fewer bytes than asked for only at the end.
-    std::function<size_t(uint64_t offset, std::span<std::byte> into)> read;
-};
-
 struct Response {
     int status = 200;
     std::vector<std::pair<std::string, std::string>> headers = {};
@@ -71,7 +65,9 @@ struct Response {
     std::string body = {};                // either this
     std::optional<Content> content = {};  // or this
     std::string job = {};                 // for the log: the job that the exchange was about
+    std::string fault = {};               // for the log: what failed on our side
 
+    bool has(std::string_view name) const;          // a header of this name, spelled like this
     void set(std::string name, std::string value);  // replaces what was there under this name
     void json(int with_status, std::string text);
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/ascii.h"
 #include "core/base/error.h"
 
 namespace coppice {
@@ -10,20 +11,6 @@ namespace {
 
 constexpr auto malformed = ErrorCode::request_malformed;
 constexpr size_t read_bytes = 64 << 10;
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    for (char& c : result) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return result;
-}
-
-std::string_view trim(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 // What stands between quotes, or up to the next ';'. Advances past it.
 std::string take_value(std::string_view& rest) {

@@ -1,32 +1,23 @@
 #include "server/http/range.h"
 
 #include <algorithm>
-#include <charconv>
 
+#include "core/base/ascii.h"
 #include "core/base/error.h"
+#include "core/base/number.h"
 
 namespace coppice {
-namespace {
-
-std::optional<uint64_t> parse_number(std::string_view text) {
-    uint64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
-
-}  // namespace
 
 std::optional<ByteRange> parse_range(std::string_view header, uint64_t size_bytes) {
     constexpr std::string_view unit = "bytes=";
-    if (!header.starts_with(unit)) return std::nullopt;
+    if (!equal_ignoring_case(header.substr(0, unit.size()), unit)) return std::nullopt;
     header.remove_prefix(unit.size());
     require(header.find(',') == std::string_view::npos, ErrorCode::range_not_satisfiable, "Range",
             "one range is sent per request; ask for each by itself");
     const auto dash = header.find('-');
     if (dash == std::string_view::npos) return std::nullopt;
-    const auto first = parse_number(header.substr(0, dash));
-    const auto last = parse_number(header.substr(dash + 1));
+    const auto first = parse_whole_number(header.substr(0, dash));
+    const auto last = parse_whole_number(header.substr(dash + 1));
     if ((!first && dash > 0) || (!last && dash + 1 < header.size()) || (!first && !last)) return std::nullopt;
     if (first && last && *last < *first) return std::nullopt;
 

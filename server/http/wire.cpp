@@ -1,6 +1,8 @@
 #include "server/http/wire.h"
 
+#include <linux/sockios.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -16,31 +18,50 @@ using Clock = std::chrono::steady_clock;
 
 constexpr size_t receive_buffer_bytes = 16 << 10;
 constexpr size_t send_buffer_bytes = 64 << 10;
-constexpr std::chrono::seconds grace{10};  // before bytes_per_second counts
+constexpr int once_fast = 10;  // times as slow as at first
+constexpr std::chrono::milliseconds look_every{1000};
 
 }  // namespace
 
 Patience::Duration Patience::left() const {
-    Duration allowed = total_;
-    if (bytes_per_second_ > 0) {
-        allowed = std::min<Duration>(allowed, grace + std::chrono::seconds(bytes_ / bytes_per_second_));
-    }
-    return allowed - waited_;
+    return pace_.bytes_per_second == 0 ? total_left_ : std::min(total_left_, slow_left_);
+}
+
+void Patience::waited(Duration time) {
+    total_left_ -= time;
+    slow_left_ -= time;
+}
+
+void Patience::moved(uint64_t bytes) {
+    if (pace_.bytes_per_second == 0) return;
+    using Seconds = std::chrono::duration<double>;
+    const Seconds earned(static_cast<double>(bytes) / static_cast<double>(pace_.bytes_per_second));
+    const Seconds most = once_fast * pace_.slow_time;
+    slow_left_ = std::chrono::duration_cast<Duration>(std::min<Seconds>(slow_left_ + earned, most));
 }
 
 Wire::Wire(int socket) : socket_(socket) {}
 
-bool Wire::wait_for(short events, Patience& patience) const {
+bool Wire::wait_for(short events, Patience& patience) {
     for (;;) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(patience.left());
         if (left.count() <= 0) return false;
         pollfd waiting{socket_, events, 0};
         const auto begin = Clock::now();
-        const int ready = ::poll(&waiting, 1, static_cast<int>(std::min<int64_t>(left.count(), 60'000)));
+        const int ready = ::poll(&waiting, 1, static_cast<int>(std::min(left, look_every).count()));
         patience.waited(Clock::now() - begin);
+        if (events == POLLOUT) count_taken(patience);
         if (ready > 0) return true;
         if (ready < 0 && errno != EINTR) return true;  // the call that follows tells what is wrong
     }
+}
+
+void Wire::count_taken(Patience& patience) {
+    int waiting = 0;
+    if (::ioctl(socket_, SIOCOUTQ, &waiting) != 0) waiting = 0;
+    const uint64_t taken = sent_ - std::min(sent_, static_cast<uint64_t>(waiting));
+    if (taken > taken_) patience.moved(taken - taken_);
+    taken_ = std::max(taken, taken_);
 }
 
 size_t Wire::receive(std::span<std::byte> into, Patience& patience) {
@@ -53,7 +74,10 @@ size_t Wire::receive(std::span<std::byte> into, Patience& patience) {
         if (got == 0) return 0;
         if (errno == EINTR) continue;
         if (errno != EAGAIN && errno != EWOULDBLOCK) return 0;
-        require(wait_for(POLLIN, patience), ErrorCode::request_timeout, "", "the request came too slowly");
+        require(wait_for(POLLIN, patience), ErrorCode::request_timeout, "",
+                "the request came too slowly; send at least http_bytes_per_second bytes a second, and all of "
+                "it within "
+                "http_body_ms");
     }
 }
 
@@ -82,8 +106,8 @@ size_t Wire::read(std::span<std::byte> into, Patience& patience) {
 std::string Wire::read_head(const HttpLimits& limits, std::chrono::milliseconds idle_time) {
     std::string head;
     std::array<std::byte, 1> next{};
-    Patience before_first(idle_time, 0);
-    Patience patience(limits.header_time, 0);
+    Patience before_first(idle_time);
+    Patience patience(limits.header_time);
     for (;;) {
         size_t got = 0;
         try {
@@ -129,7 +153,8 @@ bool Wire::send_all(std::string_view bytes, Patience& patience) {
     while (!bytes.empty() && !broken_) {
         const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
         if (sent >= 0) {
-            patience.moved(static_cast<size_t>(sent));
+            sent_ += static_cast<uint64_t>(sent);
+            count_taken(patience);
             bytes.remove_prefix(static_cast<size_t>(sent));
         } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
             broken_ = !wait_for(POLLOUT, patience);
@@ -148,7 +173,7 @@ bool Wire::is_gone() const {
 
 void Wire::linger(std::chrono::milliseconds at_most) {
     ::shutdown(socket_, SHUT_WR);
-    Patience patience(at_most, 0);
+    Patience patience(at_most);
     const auto end =
         Clock::now() + at_most;  // a fast sender never makes us wait, and must not keep us either
     std::array<std::byte, receive_buffer_bytes> swallowed{};

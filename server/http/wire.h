@@ -14,25 +14,30 @@
 
 namespace coppice {
 
+// How slow the other side may be. It may fall behind for slow_time at first, and for ten times that once it
+// was fast: what it has taken an hour ago does not entitle it to an hour.
+struct Pace {
+    uint64_t bytes_per_second = 0;  // 0: any
+    std::chrono::milliseconds slow_time{0};
+};
+
 // How long the other side may keep us waiting in one direction. Only time spent waiting counts, not our own
 // work.
 class Patience {
   public:
     using Duration = std::chrono::steady_clock::duration;
 
-    // bytes_per_second 0: the total alone counts.
-    Patience(Duration total, uint64_t bytes_per_second)
-        : total_(total), bytes_per_second_(bytes_per_second) {}
+    explicit Patience(Duration total, Pace pace = {})
+        : pace_(pace), total_left_(total), slow_left_(pace.slow_time) {}
 
     Duration left() const;
-    void waited(Duration time) { waited_ += time; }
-    void moved(size_t bytes) { bytes_ += bytes; }
+    void waited(Duration time);
+    void moved(uint64_t bytes);
 
   private:
-    Duration total_;
-    uint64_t bytes_per_second_;
-    Duration waited_{0};
-    uint64_t bytes_ = 0;
+    Pace pace_;
+    Duration total_left_;
+    Duration slow_left_;
 };
 
 // Does not own the socket. One thread.
@@ -47,16 +52,18 @@ class Wire {
     // At least one byte, at most into.size(); 0: the other side closed. Throws request_timeout.
     size_t read(std::span<std::byte> into, Patience& patience);
 
-    // Collects small writes; false once the other side is gone or too slow, and for ever after.
+    // Collects small writes; false once the other side is gone or too slow, and for ever after. What counts
+    // is what the other side has taken, not what waits in the system's buffers.
     bool write(std::string_view bytes, Patience& patience);
     bool flush(Patience& patience);
 
     bool is_gone() const;  // the other side closed or reset
-    void linger(std::chrono::milliseconds
-                    at_most);  // no more answers; swallows what still comes, so that ours arrives
+    // No more answers; swallows what still comes, so that ours arrives.
+    void linger(std::chrono::milliseconds at_most);
 
   private:
-    bool wait_for(short events, Patience& patience) const;
+    bool wait_for(short events, Patience& patience);
+    void count_taken(Patience& patience);
     size_t receive(std::span<std::byte> into, Patience& patience);
     bool send_all(std::string_view bytes, Patience& patience);
 
@@ -64,6 +71,8 @@ class Wire {
     std::vector<std::byte> received_;  // read ahead, from received_begin_
     size_t received_begin_ = 0;
     std::string unsent_;
+    uint64_t sent_ = 0;   // to the system
+    uint64_t taken_ = 0;  // of it, by the other side
     bool broken_ = false;
 };
 

@@ -10,8 +10,9 @@ using namespace std::chrono_literals;
 
 }  // namespace
 
-Runner::Runner(JobStore& store, WorkFunction work, RunnerOptions options, const Log& log, Metrics& metrics)
-    : store_(store), work_(std::move(work)), options_(options), log_(log), metrics_(metrics) {}
+Runner::Runner(JobStore& store, BlobStore& blobs, WorkFunction work, RunnerOptions options, const Log& log,
+               Metrics& metrics)
+    : store_(store), blobs_(blobs), work_(std::move(work)), options_(options), log_(log), metrics_(metrics) {}
 
 Runner::~Runner() {
     drain(0ms);
@@ -91,7 +92,7 @@ void Runner::run_job(Slot& slot, const Claim& claim) {
         log_.info("job started", {{"job", slot.id},
                                   {"kind", std::string(name(claim.record.job.kind))},
                                   {"attempt", static_cast<int64_t>(claim.record.job.attempts)}});
-        conclude(slot, claim, work_(claim.record, watch(slot)));
+        conclude(slot, claim, work_(claim.record, blobs_, watch(slot)));
     } catch (const std::exception& exception) {
         conclude_failure(slot, claim, exception);
     }
@@ -136,16 +137,17 @@ void Runner::conclude_failure(Slot& slot, const Claim& claim, const std::excepti
     }
     const bool taken = store_.fail(slot.id, claim.token, problem);
     record_end(slot, claim, taken ? "failed" : "stale",
-               {{"code", std::string(name(problem.code))}, {"error", std::string(exception.what())}});
+               {{"code", std::string(name(problem.code))}, {"error", std::string(exception.what())}},
+               is_our_fault(problem.code));
 }
 
 void Runner::record_end(const Slot& slot, const Claim& claim, const std::string& status,
-                        const Log::Fields& more) {
+                        const Log::Fields& more, bool failed_here) {
     const double seconds = std::chrono::duration<double>(Clock::now() - slot.started).count();
     const std::string kind(name(claim.record.job.kind));
     Log::Fields fields = {{"job", slot.id}, {"kind", kind}, {"status", status}, {"ms", seconds * 1000}};
     fields.insert(fields.end(), more.begin(), more.end());
-    log_.info("job ended", fields);
+    failed_here ? log_.error("job ended", fields) : log_.info("job ended", fields);
     metrics_.job_done(kind, status, seconds);  // last: whoever sees it counted sees all of it
 }
 

@@ -24,7 +24,8 @@ struct RunnerOptions {
 class Runner {
   public:
     // All have to outlive it. work is called from as many threads as there are slots.
-    Runner(JobStore& store, WorkFunction work, RunnerOptions options, const Log& log, Metrics& metrics);
+    Runner(JobStore& store, BlobStore& blobs, WorkFunction work, RunnerOptions options, const Log& log,
+           Metrics& metrics);
     ~Runner();  // drain(0)
     Runner(const Runner&) = delete;
     Runner& operator=(const Runner&) = delete;
@@ -54,12 +55,14 @@ class Runner {
     void run_job(Slot& slot, const Claim& claim);
     void conclude(Slot& slot, const Claim& claim, Worked worked);
     void conclude_failure(Slot& slot, const Claim& claim, const std::exception& exception);
-    void record_end(const Slot& slot, const Claim& claim, const std::string& status, const Log::Fields& more);
+    void record_end(const Slot& slot, const Claim& claim, const std::string& status, const Log::Fields& more,
+                    bool failed_here = false);
     Watch watch(Slot& slot);
     void beat();
     void beat_slot(Slot& slot);
 
     JobStore& store_;
+    BlobStore& blobs_;
     WorkFunction work_;
     RunnerOptions options_;
     const Log& log_;

@@ -44,15 +44,6 @@ std::string stem_of(const std::string& path) {
     return name.empty() ? "scene" : name;
 }
 
-Worked store(ByteView bytes, std::string file_name, std::string media_type, BlobStore& blobs) {
-    Worked worked;
-    worked.hold = blobs.create();
-    worked.hold->write(bytes);
-    const BlobRef blob = worked.hold->commit();
-    worked.result.file = {std::move(file_name), std::move(media_type), blob.sha256, blob.bytes};
-    return worked;
-}
-
 Worked optimize_upload(const JobRecord& record, const Upload& upload, BlobStore& blobs,
                        const ReadLimits& limits, unsigned threads, const Watch& watch) {
     OptimizeOptions options = record.job.options;
@@ -63,10 +54,13 @@ Worked optimize_upload(const JobRecord& record, const Upload& upload, BlobStore&
         report.timing_ms.queue =
             static_cast<double>((*record.job.started_at - record.job.created_at).count());
     }
-    Worked worked =
-        store(optimized.asset.bytes, stem_of(record.asset.path) + "." + optimized.asset.file_extension,
-              optimized.asset.media_type, blobs);
-    worked.result.report = print_report(report);
+    Worked worked;
+    const WrittenAsset& asset = optimized.asset;
+    worked.result.file =
+        store_bytes(worked, blobs, asset.bytes, stem_of(record.asset.path) + "." + asset.file_extension,
+                    asset.media_type);
+    worked.result.report =
+        store_bytes(worked, blobs, as_bytes(print_report(report)), "report.json", "application/json");
     worked.result.triangles_in = report.input.unique_triangles;
     worked.result.triangles_out = report.output.unique_triangles;
     const StageTimes& times = report.timing_ms;
@@ -80,16 +74,26 @@ Worked optimize_upload(const JobRecord& record, const Upload& upload, BlobStore&
 Worked inspect_upload(const JobRecord& record, const Upload& upload, BlobStore& blobs,
                       const ReadLimits& limits, const Watch& watch) {
     const auto begin = std::chrono::steady_clock::now();
-    std::string inspection = print_inspection(inspect(upload, limits, watch));
-    Worked worked =
-        store(as_bytes(inspection), stem_of(record.asset.path) + ".json", "application/json", blobs);
-    worked.result.report = std::move(inspection);
+    const std::string inspection = print_inspection(inspect(upload, limits, watch));
+    Worked worked;
+    worked.result.file = store_bytes(worked, blobs, as_bytes(inspection),
+                                     stem_of(record.asset.path) + ".json", "application/json");
+    worked.result.report = worked.result.file;
     const std::chrono::duration<double, std::milli> total = std::chrono::steady_clock::now() - begin;
     worked.result.stage_ms = {{"total", total.count()}};
     return worked;
 }
 
 }  // namespace
+
+StoredFile store_bytes(Worked& worked, BlobStore& blobs, ByteView bytes, std::string file_name,
+                       std::string media_type) {
+    auto writer = blobs.create();
+    writer->write(bytes);
+    const BlobRef blob = writer->commit();
+    worked.holds.push_back(std::move(writer));
+    return {std::move(file_name), std::move(media_type), blob.sha256, blob.bytes};
+}
 
 Worked work(const JobRecord& record, BlobStore& blobs, const ReadLimits& limits, unsigned threads,
             const Watch& watch) {

@@ -1,7 +1,8 @@
 // GET /v1/jobs: newest first, page by page.
-#include <charconv>
+#include <set>
 
 #include "core/base/error.h"
+#include "core/base/number.h"
 #include "server/routes/routes.h"
 
 namespace coppice {
@@ -11,19 +12,19 @@ constexpr size_t default_limit = 100;
 constexpr size_t max_limit = 1000;
 
 uint64_t parse_number(const std::string& name, const std::string& text, uint64_t least, uint64_t most) {
-    uint64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    require(!text.empty() && error == std::errc() && end == text.data() + text.size() && number >= least &&
-                number <= most,
-            ErrorCode::option_invalid, name, "{} is \"{}\"; it takes a whole number from {} to {}", name,
-            text, least, most);
-    return number;
+    const auto number = parse_whole_number(text);
+    require(number && *number >= least && *number <= most, ErrorCode::option_invalid, name,
+            "{} is \"{}\"; it takes a whole number from {} to {}", name, text, least, most);
+    return *number;
 }
 
 JobQuery parse_query(const Request& request) {
     JobQuery query;
     query.limit = default_limit;
+    std::set<std::string_view> seen;
     for (const auto& [name, value] : request.query) {
+        require(seen.insert(name).second, ErrorCode::option_conflict, name, "{} is given twice; give it once",
+                name);
         if (name == "status") {
             query.status = job_status_from_name(value);
             require(query.status.has_value(), ErrorCode::option_invalid, name,
@@ -44,12 +45,9 @@ JobQuery parse_query(const Request& request) {
 
 Route list_jobs_route(Services& services) {
     return {"GET", "/v1/jobs", [&services](Request& request, Response& response) {
-                JobPage page = services.store.list(parse_query(request));
+                const JobPage page = services.store.list(parse_query(request));
                 std::string jobs;
-                for (Job& job : page.jobs) {
-                    job.report.reset();  // long; it has its own path
-                    jobs += (jobs.empty() ? "" : ",") + print_job(job);
-                }
+                for (const Job& job : page.jobs) jobs += (jobs.empty() ? "" : ",") + print_job(job);
                 const std::string next = page.next ? "\"" + std::to_string(*page.next) + "\"" : "null";
                 response.json(200, R"({"jobs":[)" + jobs + R"(],"next_cursor":)" + next + "}");
             }};

@@ -34,16 +34,21 @@ std::string content_disposition(std::string_view file_name) {
     return text;
 }
 
-void answer_result(Response& response, const JobRecord& record, const BlobStore& blobs) {
+Content stored_content(const JobRecord& record, const StoredFile& file, const Services& services) {
+    const std::shared_ptr<const BlobReader> reader = services.blobs.open(file.sha256);
+    if (reader == nullptr) services.store.find(record.job.id);  // throws where that is because it was removed
+    require(reader != nullptr, ErrorCode::storage_failed, "", "the bytes {} of the job {} are lost",
+            file.sha256, record.job.id);
+    return {reader->bytes(),
+            [reader](uint64_t offset, std::span<std::byte> into) { return reader->read(offset, into); }};
+}
+
+void answer_result(Response& response, const JobRecord& record, const Services& services) {
     const JobResult& result = record.result.value();
-    std::shared_ptr<const BlobReader> reader = blobs.open(result.file.sha256);
-    require(reader != nullptr, ErrorCode::storage_failed, "", "the result's bytes are not there any more");
     response.status = 200;
     response.content_type = result.file.media_type;
     response.body.clear();
-    response.content = Content{reader->bytes(), [reader](uint64_t offset, std::span<std::byte> into) {
-                                   return reader->read(offset, into);
-                               }};
+    response.content = stored_content(record, result.file, services);
     response.set("ETag", "\"" + result.file.sha256 + "\"");
     response.set("Cache-Control", "private, no-cache");
     response.set("Server-Timing", server_timing(result));

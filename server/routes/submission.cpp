@@ -1,9 +1,11 @@
 #include "server/routes/submission.h"
 
 #include <algorithm>
-#include <charconv>
 
+#include "core/base/ascii.h"
 #include "core/base/error.h"
+#include "core/base/number.h"
+#include "server/http/answer.h"
 #include "server/routes/result.h"
 #include "server/routes/upload.h"
 
@@ -39,10 +41,12 @@ class CountedWait {
     size_t place_;
 };
 
-std::string_view trim(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t\"");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t\"") - first + 1);
+// A preference and its value, which may stand in quotes; parameters after ';' mean nothing to us.
+std::pair<std::string, std::string_view> split_preference(std::string_view text) {
+    text = text.substr(0, text.find(';'));
+    const auto equals = std::min(text.find('='), text.size());
+    return {lower(trim(text.substr(0, equals))),
+            trim(text.substr(std::min(equals + 1, text.size())), " \t\"")};
 }
 
 }  // namespace
@@ -72,17 +76,15 @@ Preference parse_preference(const Headers& headers, const RouteSettings& setting
     while (!rest.empty()) {
         const auto one = rest.substr(0, rest.find(','));
         rest.remove_prefix(std::min(one.size() + 1, rest.size()));
-        const auto text = trim(one.substr(0, one.find(';')));
-        if (text == "respond-async") asynchronous = true;
-        if (!text.starts_with("wait")) continue;  // other preferences may be ignored (RFC 7240, section 2)
-        const auto value = trim(text.substr(std::min<size_t>(text.size(), text.find('=') + 1)));
-        uint32_t seconds = 0;
-        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), seconds);
-        require(text.find('=') != std::string_view::npos && !value.empty() && error == std::errc() &&
-                    end == value.data() + value.size(),
-                ErrorCode::request_malformed, "Prefer",
-                "Prefer has {}; it takes wait=SECONDS and respond-async", text);
-        asked = std::min(std::chrono::seconds(seconds), settings.max_wait);
+        const auto [name, value] = split_preference(one);
+        if (name == "respond-async") asynchronous = true;
+        // Others may be ignored, and of the same one the first counts (RFC 7240, section 2).
+        if (name != "wait" || asked) continue;
+        const auto seconds = parse_whole_number(value);
+        require(seconds.has_value(), ErrorCode::request_malformed, "Prefer",
+                "Prefer has {}; it takes wait=SECONDS and respond-async", trim(one));
+        const auto most = static_cast<uint64_t>(settings.max_wait.count());
+        asked = std::chrono::seconds(std::min(*seconds, most));
     }
     if (asynchronous) preference = {0s, "respond-async"};
     if (asked) {
@@ -122,7 +124,7 @@ void submit_and_wait(JobKind kind, Request& request, Response& response, Service
     if (!is_finished(record->job.status)) {
         answer_accepted(response, record->job);
     } else if (record->result) {
-        answer_result(response, *record, services.blobs);
+        answer_result(response, *record, services);
     } else {
         set_problem(response, record->job.problem.value());
     }

@@ -2,8 +2,10 @@
 
 #include <array>
 #include <optional>
+#include <set>
 
 #include "core/base/error.h"
+#include "core/format/detect.h"
 #include "proto/options.h"
 #include "server/http/multipart.h"
 
@@ -12,16 +14,6 @@ namespace {
 
 constexpr size_t read_bytes = 256 << 10;
 constexpr size_t max_options_bytes = 64 << 10;
-
-// An inspection changes nothing, so that of the options only the one that chooses the asset means anything.
-OptimizeOptions checked(JobKind kind, OptimizeOptions options) {
-    if (kind == JobKind::optimize) return options;
-    OptimizeOptions entry_alone;
-    entry_alone.entry = options.entry;
-    require(print_options(options) == print_options(entry_alone), ErrorCode::option_invalid, "options",
-            "an inspection takes no option but entry");
-    return options;
-}
 
 // read: fills a span, 0 at the end.
 template <typename Read>
@@ -40,7 +32,7 @@ StoredFile store_stream(ReceivedUpload& upload, BlobStore& blobs, const Read& re
 void receive_raw(ReceivedUpload& upload, const Request& request, BlobStore& blobs) {
     upload.job.asset =
         store_stream(upload, blobs, [&](std::span<std::byte> into) { return request.body->read(into); });
-    upload.job.asset.media_type = given_media_type(request.headers.find("content-type").value_or(""));
+    upload.job.asset.media_type = told_media_type(request.headers.find("content-type").value_or(""));
     const auto disposition = request.headers.find("content-disposition");
     if (disposition) upload.job.asset.path = header_parameter(*disposition, "filename").value_or("");
 }
@@ -64,7 +56,8 @@ class FormReceiver {
     void receive(const HttpLimits& limits) {
         MultipartReader reader(*request_.body, *request_.headers.find("content-type"), limits);
         while (const auto part = reader.next()) take(*part, reader);
-        require(has_asset_, ErrorCode::request_malformed, "asset", "the form has no part asset");
+        require(has_asset_, ErrorCode::request_malformed, "asset",
+                "the form has no part asset; send the asset as -F asset=@FILE does");
     }
 
   private:
@@ -77,12 +70,15 @@ class FormReceiver {
         } else if (part.name == "resource") {
             require(!part.file_name.empty(), ErrorCode::request_malformed, "resource",
                     "a part resource has no file name, by which the asset could refer to it");
+            require(resource_names_.insert(part.file_name).second, ErrorCode::request_malformed, "resource",
+                    "the form has two parts resource with the file name {}; give each a name of its own",
+                    part.file_name);
             upload_.job.resources.push_back(take_file(part, reader));
         } else if (part.name == "options") {
             require(request_.query.empty() && !has_options_, ErrorCode::option_conflict, "options",
                     "options come in the query or in one part options, not in both");
             has_options_ = true;
-            upload_.job.options = checked(upload_.job.kind, parse_options_json(read_text(reader)));
+            upload_.job.options = parse_options_json(read_text(reader), upload_.job.kind);
         } else {
             fail(ErrorCode::request_malformed, part.name,
                  fmt::format("the form has a part {}; it takes asset, resource and options", part.name));
@@ -93,7 +89,7 @@ class FormReceiver {
         StoredFile file =
             store_stream(upload_, blobs_, [&](std::span<std::byte> into) { return reader.read(into); });
         file.path = part.file_name;
-        file.media_type = given_media_type(part.media_type);
+        file.media_type = told_media_type(part.media_type);
         return file;
     }
 
@@ -102,24 +98,16 @@ class FormReceiver {
     BlobStore& blobs_;
     bool has_asset_ = false;
     bool has_options_ = false;
+    std::set<std::string> resource_names_;
 };
 
 }  // namespace
-
-std::string given_media_type(std::string_view content_type) {
-    std::string type = media_type_of(content_type);
-    for (const char* says_nothing :
-         {"application/octet-stream", "application/x-www-form-urlencoded", "text/plain"}) {
-        if (type == says_nothing) return {};
-    }
-    return type;
-}
 
 ReceivedUpload receive_upload(JobKind kind, const Request& request, BlobStore& blobs,
                               const HttpLimits& limits) {
     ReceivedUpload upload;
     upload.job.kind = kind;
-    upload.job.options = checked(kind, parse_options(request.query));
+    upload.job.options = parse_options(request.query, kind);
     const std::string type = media_type_of(request.headers.find("content-type").value_or(""));
     if (type == "multipart/form-data") {
         FormReceiver(upload, request, blobs).receive(limits);

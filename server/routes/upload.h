@@ -19,7 +19,4 @@ struct ReceivedUpload {
 ReceivedUpload receive_upload(JobKind kind, const Request& request, BlobStore& blobs,
                               const HttpLimits& limits);
 
-// A media type that says something: curl's and browsers' defaults do not, and give the empty string.
-std::string given_media_type(std::string_view content_type);
-
 }  // namespace coppice

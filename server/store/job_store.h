@@ -33,8 +33,8 @@ struct NewJob {
 };
 
 struct JobResult {
-    StoredFile file;     // path: the file name that is offered to the client
-    std::string report;  // JSON text
+    StoredFile file;    // path: the file name that is offered to the client
+    StoredFile report;  // JSON; of an inspection the same bytes. Long where there are many instances
     uint64_t bytes_in = 0;
     uint64_t triangles_in = 0;  // stored ones; 0 for an inspection
     uint64_t triangles_out = 0;

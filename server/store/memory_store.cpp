@@ -110,8 +110,8 @@ bool MemoryStore::complete(const std::string& id, uint64_t token, JobResult resu
     if (found == nullptr) return false;
     found->record.job.progress = 1;
     found->record.job.stage = "write";
-    found->record.job.report = result.report;
     ++references_[result.file.sha256];
+    ++references_[result.report.sha256];
     found->record.result = std::move(result);
     finish(*found, JobStatus::succeeded);
     return true;
@@ -190,7 +190,9 @@ void MemoryStore::count_references(const JobRecord& record, int by) {
     };
     count(record.asset.sha256);
     for (const StoredFile& resource : record.resources) count(resource.sha256);
-    if (record.result) count(record.result->file.sha256);
+    if (!record.result) return;
+    count(record.result->file.sha256);
+    count(record.result->report.sha256);
 }
 
 void MemoryStore::wait_until_finished(const std::string& id, std::stop_token stop,

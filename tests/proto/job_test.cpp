@@ -32,11 +32,14 @@ TEST(Job, is_printed_with_its_links_and_times) {
         R"("report":"/v1/jobs/0123456789abcdef0123456789abcdef/report"}})");
 }
 
-TEST(Job, carries_its_report_once_it_succeeded) {
+TEST(Job, has_a_place_for_its_report_once_it_succeeded) {
     Job job = running_job();
     job.status = JobStatus::succeeded;
-    job.report = R"({"savings":{"bytes_ratio":0.4}})";
-    EXPECT_EQ(nlohmann::json::parse(print_job(job))["report"]["savings"]["bytes_ratio"], 0.4);
+    const PrintedAroundReport printed = print_around_report(job);
+    const auto json =
+        nlohmann::json::parse(printed.before + R"({"savings":{"bytes_ratio":0.4}})" + printed.after);
+    EXPECT_EQ(json["report"]["savings"]["bytes_ratio"], 0.4);
+    EXPECT_EQ(json["id"], job.id);
 }
 
 TEST(Job, carries_its_problem_once_it_failed) {

@@ -66,6 +66,13 @@ TEST(Head, what_two_parsers_could_frame_differently_is_refused) {
     }
 }
 
+TEST(Head, a_target_may_name_the_host_as_it_does_for_proxies) {
+    const Head head = parse("GET HTTP://a:8080/v1/jobs?limit=1 HTTP/1.1\r\nHost: a\r\n\r\n");
+    EXPECT_EQ(head.path, "/v1/jobs");
+    EXPECT_EQ(head.query.at(0).first, "limit");
+    EXPECT_EQ(parse("GET http://a HTTP/1.1\r\nHost: a\r\n\r\n").path, "/");
+}
+
 TEST(Head, a_request_line_that_is_not_one_is_refused) {
     for (const std::string line : {"GET", "GET /", "GET  HTTP/1.1", "G@T / HTTP/1.1", "GET / HTTP/2.0",
                                    "GET x HTTP/1.1", "GET /a b HTTP/1.1", "GET /# HTTP/1.1",

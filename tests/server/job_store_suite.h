@@ -38,7 +38,7 @@ class JobStoreSuite : public ::testing::TestWithParam<JobStoreFactory> {
     static JobResult result(const std::string& sha256 = "rr") {
         JobResult made;
         made.file = {"scene.glb", "model/gltf-binary", sha256, 7};
-        made.report = R"({"output":{}})";
+        made.report = {"report.json", "application/json", sha256 + " report", 30};
         return made;
     }
     std::string submit(const std::string& sha256 = "aa") { return store->submit(job(sha256)).id; }
@@ -102,8 +102,8 @@ TEST_P(JobStoreSuite, a_completed_job_has_its_result_and_report) {
     EXPECT_EQ(done.job.status, JobStatus::succeeded);
     EXPECT_EQ(done.job.progress, 1);
     EXPECT_EQ(done.job.finished_at, now);
-    EXPECT_EQ(done.job.report, R"({"output":{}})");
     EXPECT_EQ(done.result->file.sha256, "rr");
+    EXPECT_EQ(done.result->report.sha256, "rr report");
 }
 
 TEST_P(JobStoreSuite, a_failed_job_has_its_problem) {
@@ -229,9 +229,11 @@ TEST_P(JobStoreSuite, blobs_are_referred_to_as_long_as_a_job_names_them) {
     EXPECT_TRUE(store->refers_to("texture"));
     succeed_next();
     EXPECT_TRUE(store->refers_to("rr"));
+    EXPECT_TRUE(store->refers_to("rr report"));
     store->remove(id);
     EXPECT_FALSE(store->refers_to("texture"));
     EXPECT_FALSE(store->refers_to("rr"));
+    EXPECT_FALSE(store->refers_to("rr report"));
     EXPECT_TRUE(store->refers_to("asset"));
     store->remove(other);
     EXPECT_FALSE(store->refers_to("asset"));

@@ -1,4 +1,8 @@
 // What becomes of a job, as its client sees it.
+#include <unistd.h>
+
+#include <fstream>
+
 #include "tests/server/service_fixture.h"
 #include "tests/server/test_scenes.h"
 
@@ -39,7 +43,7 @@ TEST_F(Jobs, results_come_whole_in_ranges_or_not_at_all_where_the_client_has_the
     EXPECT_EQ(part.status, 206);
     EXPECT_EQ(part.body, whole.body.substr(3, 7));
     EXPECT_EQ(part.header("content-range"), "bytes 3-9/" + size);
-    EXPECT_EQ(get(result, {{"Range", "bytes=-5"}}).body, whole.body.substr(whole.body.size() - 5));
+    EXPECT_EQ(get(result, {{"Range", "Bytes=-5"}}).body, whole.body.substr(whole.body.size() - 5));
 
     const std::string etag = whole.header("etag");
     EXPECT_EQ(get(result, {{"If-None-Match", "\"x\", W/" + etag}}).status, 304);
@@ -52,9 +56,11 @@ TEST_F(Jobs, results_come_whole_in_ranges_or_not_at_all_where_the_client_has_the
     EXPECT_EQ(past_the_end.header("content-range"), "bytes */" + size);
     EXPECT_THAT(get(result, {{"Range", "bytes=0-1,3-4"}}), is_problem(416, "range.not_satisfiable"));
 
-    const Answer head = request(port, "HEAD", result);
-    EXPECT_EQ(head.status, 200);
-    EXPECT_EQ(head.header("content-length"), size);
+    for (const HeaderList& headers : {HeaderList{}, HeaderList{{"Range", "bytes=3-9"}}}) {
+        const Answer head = request(port, "HEAD", result, headers);
+        EXPECT_EQ(head.status, 200);
+        EXPECT_EQ(head.header("content-length"), size);
+    }
 }
 
 TEST_F(Jobs, a_running_one_is_cancelled_and_its_slot_is_free_again) {
@@ -112,8 +118,37 @@ TEST_F(Jobs, are_listed_newest_first_in_pages) {
     EXPECT_THAT(get("/v1/jobs?status=failed").body, HasSubstr("\"jobs\":[]"));
 }
 
+// Of a scene with millions of instances, a report has hundreds of megabytes.
+TEST_F(Jobs, have_reports_that_stay_on_disk) {
+    constexpr size_t report_bytes = 4 << 20, jobs = 40;
+    const std::string report = "{\"map\":\"" + std::string(report_bytes, 'x') + "\"}";
+    Parts parts;
+    parts.work = [&](const JobRecord&, BlobStore& blobs, const Watch&) { return result_of(blobs, report); };
+    start(std::move(parts));
+    const auto resident_bytes = [] {
+        size_t all = 0;
+        size_t resident = 0;
+        std::ifstream("/proc/self/statm") >> all >> resident;
+        return resident * static_cast<size_t>(::sysconf(_SC_PAGESIZE));
+    };
+    const size_t before = resident_bytes();
+    std::string job;
+    for (size_t i = 0; i < jobs; ++i) job = submit();
+    wait_for_status(job, "succeeded");
+    const Answer list = get("/v1/jobs?limit=1000&status=succeeded");
+    EXPECT_EQ(list.body.find("\"report\":{"), std::string::npos);
+    EXPECT_THAT(list.body, HasSubstr(job.substr(9)));
+    EXPECT_LT(resident_bytes(), before + 10 * report_bytes);  // in memory they would be 40 times that, or 80
+
+    const Answer answer = get(job);
+    EXPECT_EQ(answer.header("content-type"), "application/json");
+    EXPECT_TRUE(answer.body.ends_with(",\"report\":" + report + "}"));
+    EXPECT_TRUE(get(job + "/report").body == report);
+}
+
 TEST_F(Jobs, a_query_that_means_nothing_is_refused) {
     start();
+    EXPECT_THAT(get("/v1/jobs?limit=1&limit=2"), is_problem(400, "option.conflict"));
     EXPECT_THAT(get("/v1/jobs?status=sleeping"), is_problem(400, "option.invalid"));
     EXPECT_THAT(get("/v1/jobs?limit=0"), is_problem(400, "option.invalid"));
     EXPECT_THAT(get("/v1/jobs?cursor=x"), is_problem(400, "option.invalid"));
@@ -146,7 +181,7 @@ TEST_F(Jobs, one_that_takes_too_long_fails_with_a_time_out) {
 TEST_F(Jobs, running_out_of_memory_is_told_as_such_and_anything_else_stays_in_the_log) {
     bool first = true;
     Parts parts;
-    parts.work = [&first](const JobRecord&, const Watch&) -> Worked {
+    parts.work = [&first](const JobRecord&, BlobStore&, const Watch&) -> Worked {
         if (std::exchange(first, false)) throw std::bad_alloc();
         throw std::runtime_error("secret");
     };
@@ -159,10 +194,10 @@ TEST_F(Jobs, running_out_of_memory_is_told_as_such_and_anything_else_stays_in_th
 
 TEST_F(Jobs, progress_and_stage_are_seen_while_one_runs) {
     Parts parts;
-    parts.work = [this](const JobRecord& record, const Watch& watch) {
+    parts.work = [this](const JobRecord& record, BlobStore& blobs, const Watch& watch) {
         watch.stage("simplify");
         watch.report(0.25);
-        return gate.work()(record, watch);
+        return gate.work()(record, blobs, watch);
     };
     start(std::move(parts));
     const std::string job = submit();

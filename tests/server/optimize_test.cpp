@@ -93,7 +93,25 @@ TEST_F(Optimize, a_wait_that_is_too_long_is_cut_and_said_so) {
     EXPECT_EQ(optimize(iobj_scene(), "", {{"Prefer", "handling=strict, respond-async, wait=20"}})
                   .header("preference-applied"),
               "respond-async, wait=20");
-    EXPECT_THAT(optimize(iobj_scene(), "", {{"Prefer", "wait=soon"}}), is_problem(400, "request.malformed"));
+    const Answer refused = optimize(iobj_scene(), "", {{"Prefer", "wait=soon"}});
+    EXPECT_THAT(refused, is_problem(400, "request.malformed"));
+    EXPECT_THAT(refused.body, HasSubstr("Prefer has wait=soon; it takes wait=SECONDS and respond-async"));
+}
+
+TEST_F(Optimize, preferences_are_read_as_rfc_7240_says) {
+    start();
+    const std::vector<std::pair<std::string, std::string>> applied = {
+        {"wait=20", "wait=20"},
+        {"Wait = \"20\"; x=y", "wait=20"},
+        {"wait=20, wait=30", "wait=20"},  // the first one counts
+        {"waiting=20", ""},
+        {"return=minimal", ""},
+    };
+    for (const auto& [prefer, expected] : applied) {
+        EXPECT_EQ(optimize(iobj_scene(), "", {{"Prefer", prefer}}).header("preference-applied"), expected)
+            << prefer;
+    }
+    EXPECT_EQ(optimize(iobj_scene(), "", {{"Prefer", "Respond-Async"}}).status, 202);
 }
 
 TEST_F(Optimize, an_asset_that_fails_is_a_problem_that_names_the_job) {
@@ -115,7 +133,9 @@ TEST_F(Optimize, inspect_tells_what_is_there_and_takes_no_other_option) {
     EXPECT_EQ(answer.header("content-type"), "application/json");
     EXPECT_THAT(answer.body, HasSubstr("\"instances\":3"));
     EXPECT_EQ(json_member(get(answer.header("location")).body, "kind"), "\"inspect\"");
-    EXPECT_THAT(post("/v1/inspect?ratio=0.5", {}, iobj_scene()), is_problem(400, "option.invalid"));
+    const Answer refused = post("/v1/inspect?ratio=0.5", {}, iobj_scene());
+    EXPECT_THAT(refused, is_problem(400, "option.invalid"));
+    EXPECT_EQ(json_member(refused.body, "where"), "\"ratio\"");
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ class Retention : public ::testing::Test {
         const auto claim = store.claim();
         JobResult made;
         made.file.sha256 = put(result).sha256;
+        made.report.sha256 = put(std::string("report of ").append(result)).sha256;
         store.complete(id, claim->token, std::move(made));
         return id;
     }
@@ -39,7 +40,7 @@ TEST_F(Retention, removing_a_job_removes_its_bytes_but_none_that_another_job_nam
     const std::string first = finished_job("same scene", "result 1");
     finished_job("same scene", "result 2");
     remove_job(first, store, blobs);
-    EXPECT_EQ(blobs.list().size(), 2U);
+    EXPECT_EQ(blobs.list().size(), 3U);
 }
 
 TEST_F(Retention, old_jobs_go_with_their_bytes) {
@@ -47,7 +48,7 @@ TEST_F(Retention, old_jobs_go_with_their_bytes) {
     now += 2h;
     finished_job("c", "d");
     EXPECT_EQ(remove_expired({.age = 1h, .jobs = 10}, now, store, blobs), 1U);
-    EXPECT_EQ(blobs.list().size(), 2U);
+    EXPECT_EQ(blobs.list().size(), 3U);
     EXPECT_EQ(remove_expired({.age = 1h, .jobs = 0}, now, store, blobs), 1U);
     EXPECT_TRUE(blobs.list().empty());
 }

@@ -1,11 +1,14 @@
 // The service as a process: signals and its exit code.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <csignal>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "core/base/error.h"
 #include "server/app.h"
@@ -19,13 +22,16 @@ namespace {
 // A child process that serves, and its log.
 class ServiceProcess {
   public:
-    explicit ServiceProcess(const Config& config) {
+    // descriptors: as many as it may open; 0: as many as this process.
+    explicit ServiceProcess(const Config& config, rlim_t descriptors = 0) {
         std::array<int, 2> ends{};
         if (::pipe(ends.data()) != 0) throw std::runtime_error("pipe");
         child_ = ::fork();
         if (child_ == 0) {
             ::dup2(ends[1], STDERR_FILENO);
             ::close(ends[0]);
+            const rlimit limit{descriptors, descriptors};
+            if (descriptors > 0) ::setrlimit(RLIMIT_NOFILE, &limit);
             ::_exit(run_service(config));
         }
         ::close(ends[1]);
@@ -72,6 +78,23 @@ TEST(RunService, serves_until_it_is_told_to_end_and_exits_with_0) {
         EXPECT_EQ(test::request(port, "GET", "/readyz").status, 200);
         EXPECT_EQ(process.end_with(signal), 0);
     }
+}
+
+TEST(RunService, outlives_more_connections_than_it_has_descriptors) {
+    const test::TemporaryFolder folder;
+    Config config;
+    config.listen = "127.0.0.1:0";
+    config.data = folder.path();
+    config.slots = 1;
+    constexpr rlim_t descriptors = 40;
+    ServiceProcess process(config, descriptors);
+    const int port = process.port();
+    ASSERT_GT(port, 0);
+    std::vector<std::unique_ptr<test::Connection>> idle;
+    for (rlim_t i = 0; i < descriptors; ++i) idle.push_back(std::make_unique<test::Connection>(port));
+    idle.clear();
+    EXPECT_EQ(test::request(port, "GET", "/readyz").status, 200);
+    EXPECT_EQ(process.end_with(SIGTERM), 0);
 }
 
 }  // namespace

@@ -18,8 +18,7 @@ namespace coppice::test {
 // Jobs that end when the test says so.
 class Gate {
   public:
-    // Work that waits at the gate, looking at its watch.
-    // The bytes of that result are not stored anywhere: it is for tests that look at jobs alone.
+    // Work that waits at the gate, looking at its watch, and gives "{}" as result and report.
     WorkFunction work();
 
     void wait_until_entered(size_t jobs = 1);  // by that many jobs in all
@@ -58,6 +57,9 @@ class ServiceTest : public ::testing::Test {
     std::unique_ptr<Service> service;
     int port = 0;
 };
+
+// Of "{}", or what is given: both the asset and the report.
+Worked result_of(BlobStore& blobs, std::string_view json = "{}");
 
 // What a member of a JSON object's text is, raw: good enough for flat members of known answers.
 std::string json_member(const std::string& json, const std::string& name);
