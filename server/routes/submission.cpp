@@ -55,7 +55,7 @@ Job submit_upload(JobKind kind, Request& request, Response& response, Services& 
     require_room(services);
     ReceivedUpload upload = receive_upload(kind, request, services.blobs, services.settings.http);
     require_room(services);  // the body may have taken long, and draining begun
-    const Job job = services.store.submit(std::move(upload.job));
+    Job job = services.store.submit(std::move(upload.job));
     response.job = job.id;
     response.set("Location", "/v1/jobs/" + job.id);
     return job;
