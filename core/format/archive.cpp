@@ -169,6 +169,10 @@ void add_file(zip_t* zip, const NamedFile& file) {
     zip_set_file_compression(zip, at, is_packed_already(file.bytes) ? ZIP_CM_STORE : ZIP_CM_DEFLATE, 0);
 }
 
+int is_stopped(zip_t*, void* watch) {
+    return static_cast<const Watch*>(watch)->stop.stop_requested() ? 1 : 0;
+}
+
 Bytes contents(zip_source_t* source) {
     zip_stat_t stat;
     zip_stat_init(&stat);
@@ -206,8 +210,11 @@ Bytes write_zip(const std::vector<NamedFile>& files, const Watch& watch) {
     }
     zip_error_fini(&error);
     for (const NamedFile& file : files) add_file(zip.get(), file);
+    // Closing is what packs.
+    zip_register_cancel_callback_with_state(zip.get(), &is_stopped, nullptr, const_cast<Watch*>(&watch));
+    const bool closed = zip_close(zip.get()) == 0;
     watch.check();
-    require(zip_close(zip.get()) == 0, ErrorCode::internal, "", "zip: {}", zip_strerror(zip.get()));
+    require(closed, ErrorCode::internal, "", "zip: {}", zip_strerror(zip.get()));
     static_cast<void>(zip.release());  // closed
     return contents(archive.get());
 }

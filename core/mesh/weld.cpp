@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <unordered_map>
 
 #include "core/base/watched_loop.h"
 
@@ -96,11 +97,11 @@ void weld_vertices(Mesh& mesh, const Watch& watch) {
 // are only merged when whoever uses them agrees on which attributes exist. Wedges that no triangle uses are
 // class none.
 std::vector<uint32_t> slot_class_of_wedges(const Mesh& mesh) {
-    std::vector<uint32_t> slot_class(mesh.slots.size());
-    for (size_t s = 0; s < mesh.slots.size(); ++s) {
-        size_t c = 0;
-        while (mesh.slots[c].has_attribute != mesh.slots[s].has_attribute) ++c;
-        slot_class[s] = static_cast<uint32_t>(c);
+    std::unordered_map<std::vector<bool>, uint32_t> classes;  // by attribute set: the lowest slot
+    std::vector<uint32_t> slot_class;
+    for (const MaterialSlot& slot : mesh.slots) {
+        const auto next = static_cast<uint32_t>(slot_class.size());
+        slot_class.push_back(classes.try_emplace(slot.has_attribute, next).first->second);
     }
     std::vector<uint32_t> wedge_class(mesh.wedge_count(), none);
     for (size_t corner = 0; corner < mesh.triangles.size(); ++corner) {

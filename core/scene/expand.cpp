@@ -7,9 +7,6 @@
 
 namespace coppice {
 
-namespace {
-
-// One child node per instance of a batch, so that each can have a mesh of its own.
 void unfold_batches(Scene& scene) {
     const size_t given = scene.nodes.size();
     for (size_t n = 0; n < given; ++n) {
@@ -26,13 +23,10 @@ void unfold_batches(Scene& scene) {
             unfolded.push_back(static_cast<uint32_t>(scene.nodes.size()));
             scene.nodes.push_back(std::move(child));
         }
-        // First, so that instances() lists them in the order in which it listed the batch.
         auto& children = scene.nodes[n].children;
         children.insert(children.begin(), unfolded.begin(), unfolded.end());
     }
 }
-
-}  // namespace
 
 Scene expand_meshes(const Scene& scene) {
     Scene expanded = scene;

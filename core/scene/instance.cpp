@@ -1,6 +1,8 @@
 #include "core/scene/instance.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -64,38 +66,132 @@ uint64_t instance_count(const Scene& scene) {
     return count;
 }
 
-Bounds scene_bounds(const Scene& scene, std::span<const Instance> instances) {
-    std::vector<Bounds> local;
-    for (const Mesh& mesh : scene.meshes) local.push_back(bounds(mesh.positions));
-    const auto is_inside = [](const Bounds& inner, const Bounds& outer) {
-        return inner.min.x >= outer.min.x && inner.min.y >= outer.min.y && inner.min.z >= outer.min.z &&
-               inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z;
-    };
-    const auto extend_exactly = [&](Bounds& box, const Instance& instance) {
-        for (const Vec3f& position : scene.meshes[instance.mesh].positions) {
-            box.extend(instance.world.point(to_double(position)));
+namespace {
+
+// How far something reaches to each side: -x, -y, -z, x, y, z.
+using Reach = std::array<double, 6>;
+
+// How far a mesh reaches in the 26 directions of whole numbers from -1 to 1.
+class Hull {
+  public:
+    explicit Hull(const Mesh& mesh) {
+        reach_.fill(-std::numeric_limits<double>::infinity());
+        for (const Vec3f& position : mesh.positions) {
+            size_t i = 0;
+            for (const double x : {-position.x, 0.0F, position.x})
+                for (const double y : {-position.y, 0.0F, position.y})
+                    for (const double z : {-position.z, 0.0F, position.z}) {
+                        reach_[i] = std::max(reach_[i], x + y + z);
+                        ++i;
+                    }
         }
-    };
-    std::vector<Bounds> boxes;          // of each instance's corners: never too small
-    std::array<size_t, 6> outermost{};  // by those, for each side
-    std::array<double, 6> farthest{};
-    farthest.fill(-std::numeric_limits<double>::infinity());
-    for (size_t i = 0; i < instances.size(); ++i) {
-        const Bounds& b = boxes.emplace_back(transform_bounds(instances[i].world, local[instances[i].mesh]));
-        const std::array<double, 6> reach = {-b.min.x, -b.min.y, -b.min.z, b.max.x, b.max.y, b.max.z};
+    }
+
+    // Never less than what the mesh reaches in any direction, but for rounding; equal in those 26. Reach is
+    // subadditive, and every direction is a sum of three of them with factors that are not negative: (5, 3,
+    // 1) is 2 (1, 0, 0) + 2 (1, 1, 0) + 1 (1, 1, 1).
+    double bound(Vec3d direction) const {
+        struct Axis {
+            double size;
+            size_t step;  // in reach_, towards where the direction points
+        };
+        const auto axis = [](double d, size_t step) { return Axis{std::abs(d), d < 0 ? 0 - step : step}; };
+        std::array<Axis, 3> axes = {axis(direction.x, 9), axis(direction.y, 3), axis(direction.z, 1)};
+        std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.size > b.size; });
+        double sum = 0;
+        size_t at = middle;
+        for (size_t i = 0; i < 3; ++i) {
+            at += axes[i].step;
+            const double factor = axes[i].size - (i < 2 ? axes[i + 1].size : 0);
+            if (factor > 0) sum += factor * reach_[at];
+        }
+        return sum;
+    }
+
+  private:
+    static constexpr size_t middle = 13;
+    std::array<double, 27> reach_{};  // by x, y and z of the direction
+};
+
+Reach farthest_reach(const Transform& world, const Hull& hull) {
+    Reach reach{};
+    for (size_t axis = 0; axis < 3; ++axis) {
+        const double* row = &world.m[4 * axis];
+        reach[axis] = hull.bound({-row[0], -row[1], -row[2]}) - row[3];
+        reach[axis + 3] = hull.bound({row[0], row[1], row[2]}) + row[3];
+    }
+    return reach;
+}
+
+class BoundsSearch {
+  public:
+    BoundsSearch(const Scene& scene, std::span<const Instance> instances)
+        : scene_(scene), instances_(instances) {
+        std::vector<Hull> hulls;
+        for (const Mesh& mesh : scene.meshes) hulls.emplace_back(mesh);
+        for (const Instance& instance : instances)
+            farthest_.push_back(farthest_reach(instance.world, hulls[instance.mesh]));
+        reach_.fill(-std::numeric_limits<double>::infinity());
+    }
+
+    Bounds run() {
         for (size_t side = 0; side < 6; ++side) {
-            if (!(reach[side] > farthest[side])) continue;
-            farthest[side] = reach[side];
-            outermost[side] = i;
+            const size_t i = outermost(side);
+            for (size_t any = 0; any < 6; ++any) look_at(i, any);
         }
+        for (size_t side = 0; side < 6; ++side) {
+            for (const size_t i : candidates(side)) {
+                if (!may_extend(i, side)) break;
+                look_at(i, side);
+            }
+        }
+        return box();
     }
-    Bounds box;
-    if (instances.empty()) return box;
-    for (const size_t i : outermost) extend_exactly(box, instances[i]);
-    for (size_t i = 0; i < instances.size(); ++i) {
-        if (!is_inside(boxes[i], box)) extend_exactly(box, instances[i]);
+
+  private:
+    size_t outermost(size_t side) const {
+        const auto found =
+            std::max_element(farthest_.begin(), farthest_.end(),
+                             [side](const Reach& a, const Reach& b) { return a[side] < b[side]; });
+        return static_cast<size_t>(found - farthest_.begin());
     }
-    return box;
+
+    // Thousands that stand on one ground reach equally far, but for rounding: one of them will do.
+    bool may_extend(size_t i, size_t side) const {
+        return farthest_[i][side] > reach_[side] + 1e-9 * box().diagonal();
+    }
+
+    // The farthest first, so that nearly all are left out.
+    std::vector<size_t> candidates(size_t side) const {
+        std::vector<size_t> out;
+        for (size_t i = 0; i < instances_.size(); ++i)
+            if (may_extend(i, side)) out.push_back(i);
+        std::stable_sort(out.begin(), out.end(),
+                         [&](size_t a, size_t b) { return farthest_[a][side] > farthest_[b][side]; });
+        return out;
+    }
+
+    void look_at(size_t i, size_t side) {
+        const double* row = &instances_[i].world.m[4 * (side % 3)];
+        const double sign = side < 3 ? -1 : 1;
+        double reach = reach_[side];
+        for (const Vec3f& p : scene_.meshes[instances_[i].mesh].positions)
+            reach = std::max(reach, sign * (row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3]));
+        reach_[side] = reach;
+    }
+
+    Bounds box() const { return {{-reach_[0], -reach_[1], -reach_[2]}, {reach_[3], reach_[4], reach_[5]}}; }
+
+    const Scene& scene_;
+    std::span<const Instance> instances_;
+    std::vector<Reach> farthest_;  // per instance
+    Reach reach_;                  // of all that were looked at
+};
+
+}  // namespace
+
+Bounds scene_bounds(const Scene& scene, std::span<const Instance> instances) {
+    return instances.empty() ? Bounds{} : BoundsSearch(scene, instances).run();
 }
 
 Bounds scene_bounds(const Scene& scene) {

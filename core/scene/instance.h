@@ -26,9 +26,9 @@ std::vector<Instance> instances(const Scene& scene);
 // How many instances instances() would give, without making them.
 uint64_t instance_count(const Scene& scene);
 
-// World-space bounds of all instances: the box of every transformed position, exact. An instance whose box's
-// corners lie inside of what is known already is not looked at closer, so that thousands of instances cost
-// little.
+// World-space bounds of all instances: the box of every transformed position. No side is beyond the exact
+// one, or short of it by more than 1e-9 of the diagonal: an instance that cannot reach farther than that is
+// not looked at closer, so that thousands of instances cost little.
 Bounds scene_bounds(const Scene& scene);
 Bounds scene_bounds(const Scene& scene, std::span<const Instance> instances);
 

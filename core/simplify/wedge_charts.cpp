@@ -119,6 +119,31 @@ std::vector<uint32_t> find_charts(const Mesh& mesh, const std::vector<uint32_t>&
     return chart;
 }
 
+// Back from corners to wedges: nearly all wedges of the source are one here; those that several slots use are
+// looked up, as a hostile mesh may have a million of them at one vertex.
+std::vector<uint32_t> corner_wedges(const Mesh& mesh, const WedgeCharts& charts, const Watch& watch) {
+    constexpr uint32_t unused = UINT32_MAX;
+    std::vector<uint32_t> last(mesh.wedge_count(), unused);        // by the source's wedge
+    std::vector<std::tuple<uint32_t, uint32_t, uint32_t>> others;  // source, slot, wedge
+    for (uint32_t w = 0; w < charts.source.size(); ++w) {
+        uint32_t& known = last[charts.source[w]];
+        if (known != unused) others.emplace_back(charts.source[w], charts.slot[known], known);
+        known = w;
+    }
+    std::sort(others.begin(), others.end());
+    std::vector<uint32_t> corners(mesh.triangles.size());
+    watched_loop(corners.size(), watch, [&](size_t corner) {
+        const uint32_t source = mesh.triangles[corner];
+        const uint32_t slot = mesh.triangle_slot[corner / 3];
+        const uint32_t w = last[source];
+        corners[corner] =
+            charts.slot[w] == slot
+                ? w
+                : std::get<2>(*std::lower_bound(others.begin(), others.end(), std::tuple(source, slot, 0U)));
+    });
+    return corners;
+}
+
 }  // namespace
 
 WedgeCharts wedge_charts(const Mesh& mesh, const Watch& watch) {
@@ -129,21 +154,7 @@ WedgeCharts wedge_charts(const Mesh& mesh, const Watch& watch) {
         charts.source.push_back(w.wedge);
         charts.slot.push_back(w.slot);
     }
-    // Back from corners to wedges: the last wedge of each source wedge, and a search among its vertex' for
-    // the rest.
-    std::vector<uint32_t> last(mesh.wedge_count(), 0);
-    for (uint32_t w = 0; w < wedges.size(); ++w) last[wedges[w].wedge] = w;
-    charts.corner_wedge.resize(mesh.triangles.size());
-    watched_loop(mesh.triangles.size(), watch, [&](size_t corner) {
-        const uint32_t source = mesh.triangles[corner];
-        const uint32_t slot = mesh.triangle_slot[corner / 3];
-        uint32_t w = last[source];
-        if (charts.slot[w] != slot) {
-            w = charts.begin[mesh.wedge_vertex[source]];
-            while (charts.source[w] != source || charts.slot[w] != slot) ++w;
-        }
-        charts.corner_wedge[corner] = w;
-    });
+    charts.corner_wedge = corner_wedges(mesh, charts, watch);
     return charts;
 }
 

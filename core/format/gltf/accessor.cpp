@@ -3,19 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace coppice::gltf {
 
 namespace {
-
-template <typename T>
-T load(const std::byte* at) {
-    T value{};
-    std::memcpy(&value, at, sizeof(T));
-    return value;
-}
 
 double load_component(const std::byte* at, ComponentType type) {
     switch (type) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,9 @@ struct Accessor {
 
     // The stored number; normalized integers as they are. element < count, component < components().
     double raw(uint64_t element, uint32_t component) const;
+    // visit(raw) for the elements begin..end, in order: the type is looked at once, not for each of them.
+    template <typename Visit>
+    void for_each_raw(uint64_t begin, uint64_t end, uint32_t component, const Visit& visit) const;
     // The same with normalized integers mapped to [-1, 1] or [0, 1].
     float value(uint64_t element, uint32_t component) const;
     // For indices and joints.
@@ -54,6 +58,40 @@ struct Accessor {
   private:
     const std::byte* locate(uint64_t element) const;  // null: zeros
 };
+
+template <typename T>
+T load(const std::byte* at) {
+    T value{};
+    std::memcpy(&value, at, sizeof(T));
+    return value;
+}
+
+template <typename Visit>
+void Accessor::for_each_raw(uint64_t begin, uint64_t end, uint32_t component, const Visit& visit) const {
+    const auto visit_all_as = [&]<typename T>(T) {
+        const std::byte* at = bytes.data() + begin * stride + component * sizeof(T);
+        for (uint64_t i = begin; i < end; ++i, at += stride) visit(static_cast<double>(load<T>(at)));
+    };
+    if (begin == end) return;
+    if (sparse.count > 0 || columns > 1 || bytes.empty()) {
+        for (uint64_t i = begin; i < end; ++i) visit(raw(i, component));
+        return;
+    }
+    switch (storage.type) {
+        case ComponentType::int8:
+            return visit_all_as(int8_t{});
+        case ComponentType::uint8:
+            return visit_all_as(uint8_t{});
+        case ComponentType::int16:
+            return visit_all_as(int16_t{});
+        case ComponentType::uint16:
+            return visit_all_as(uint16_t{});
+        case ComponentType::uint32:
+            return visit_all_as(uint32_t{});
+        case ComponentType::float32:
+            return visit_all_as(float{});
+    }
+}
 
 // count elements of element_size bytes, stride apart, fit behind offset. Cannot overflow.
 bool fits(uint64_t count, uint64_t offset, uint64_t stride, uint64_t element_size, uint64_t length);

@@ -8,12 +8,12 @@ namespace coppice::gltf {
 
 namespace {
 
-void check_sparse(const Accessor& accessor, const std::string& where) {
+void check_sparse(const Accessor& accessor, const Pointer& where) {
     for (uint64_t i = 0; i < accessor.sparse.count; ++i) {
         const uint32_t index = accessor.sparse.indices[i];
-        demand(index < accessor.count, where + "/sparse/indices",
+        demand(index < accessor.count, where / "sparse" / "indices",
                "has {} at {}, but the accessor has {} elements", index, i, accessor.count);
-        demand(i == 0 || index > accessor.sparse.indices[i - 1], where + "/sparse/indices",
+        demand(i == 0 || index > accessor.sparse.indices[i - 1], where / "sparse" / "indices",
                "has {} at {} after {}; they must increase", index, i,
                i == 0 ? 0 : accessor.sparse.indices[i - 1]);
     }
@@ -26,18 +26,23 @@ struct Range {
 
 // Ranges of the finite values, per component; counts the others.
 uint64_t find_ranges(const Accessor& accessor, std::vector<Range>& ranges, const Watch& watch) {
+    constexpr uint64_t between_checks = 65536;
     ranges.assign(accessor.components(), {});
     uint64_t not_finite = 0;
-    for (uint64_t i = 0; i < accessor.count; ++i) {
-        if (i % 65536 == 0) watch.check();
+    for (uint64_t begin = 0; begin < accessor.count; begin += between_checks) {
+        watch.check();
+        const uint64_t end = std::min(accessor.count, begin + between_checks);
         for (uint32_t c = 0; c < accessor.components(); ++c) {
-            const double value = accessor.raw(i, c);
-            if (!std::isfinite(value)) {
-                ++not_finite;
-                continue;
-            }
-            ranges[c].min = std::min(ranges[c].min, value);
-            ranges[c].max = std::max(ranges[c].max, value);
+            Range range = ranges[c];
+            accessor.for_each_raw(begin, end, c, [&](double value) {
+                if (!std::isfinite(value)) {
+                    ++not_finite;
+                    return;
+                }
+                range.min = std::min(range.min, value);
+                range.max = std::max(range.max, value);
+            });
+            ranges[c] = range;
         }
     }
     return not_finite;
@@ -83,7 +88,7 @@ void check_accessor_data(Parsed& parsed, const Watch& watch) {
     for (size_t i = 0; i < parsed.accessors.size(); ++i) {
         watch.check();
         const Accessor& accessor = parsed.accessors[i];
-        const std::string where = pointer("accessors", i);
+        const Pointer where = pointer("accessors", i);
         check_sparse(accessor, where);
         // Nothing to look at: what Draco compressed, or zeros.
         if (accessor.has_no_data()) continue;

@@ -57,28 +57,39 @@ bool holds_index(const Json& value) {
 template <typename See>
 void for_each_extension(const Json& value, const See& see) {
     if (value.is_array())
-        for (const Json& item : value) for_each_extension(item, see);
+        for (const Json& item : value)
+            if (item.is_structured()) for_each_extension(item, see);
     if (!value.is_object()) return;
-    for (const auto& [key, item] : value.items()) {
-        if (key == "extras") continue;
+    for (const auto& [key, item] : value.get_ref<const Json::object_t&>()) {
+        if (key == "extras" || !item.is_structured()) continue;
         if (key == "extensions" && item.is_object())
-            for (const auto& [name, content] : item.items()) see(name, content);
+            for (const auto& [name, content] : item.template get_ref<const Json::object_t&>())
+                see(name, content);
         for_each_extension(item, see);
     }
 }
 
+// By the extension's name, which is a view into the document.
+using Uses = std::map<std::string_view, Pointer>;
+
+void add_uses(const Json& object, const Pointer& where, Uses& uses) {
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end()) return;
+    for (const auto& [name, content] : extensions->get_ref<const Json::object_t&>())
+        uses.try_emplace(name, where);
+}
+
 // Where each extension first stands on an object whose meaning it could change under our hands.
-std::map<std::string, std::string> geometric_uses(const Json& document) {
-    std::map<std::string, std::string> uses;
+Uses geometric_uses(const Json& document, const Watch& watch) {
+    Uses uses;
     for (const char* array : {"meshes", "accessors", "bufferViews", "nodes"}) {
         const Json& items = list(document, array);
         for (size_t i = 0; i < items.size(); ++i) {
-            for (const auto& [name, content] : member(items[i], "extensions").items())
-                uses.try_emplace(name, pointer(array, i));
+            watch.check();
+            add_uses(items[i], pointer(array, i), uses);
             const Json& primitives = list(items[i], "primitives");
             for (size_t p = 0; p < primitives.size(); ++p)
-                for (const auto& [name, content] : member(primitives[p], "extensions").items())
-                    uses.try_emplace(name, pointer(array, i, "primitives", p));
+                add_uses(primitives[p], pointer(array, i, "primitives", p), uses);
         }
     }
     return uses;
@@ -105,13 +116,13 @@ void check_asset(const Json& document) {
             ErrorCode::asset_unsupported, "/asset", "this looks like glTF 1.0; glTF 2.0 is read");
     if (!has_version) return;  // check_schema says what is wrong
     const auto version = asset["version"].get<std::string>();
-    demand(is_version(version), "/asset/version", "is '{}'; it must be a version such as 2.0",
+    demand(is_version(version), pointer("asset", "version"), "is '{}'; it must be a version such as 2.0",
            version.substr(0, 30));
     require(version.starts_with("2."), ErrorCode::asset_unsupported, "/asset/version",
             "the asset is glTF {}; glTF 2.0 is read", version.substr(0, 30));
     if (!asset.contains("minVersion") || !asset["minVersion"].is_string()) return;
     const auto least = asset["minVersion"].get<std::string>();
-    demand(is_version(least), "/asset/minVersion", "is '{}'; it must be a version such as 2.0",
+    demand(is_version(least), pointer("asset", "minVersion"), "is '{}'; it must be a version such as 2.0",
            least.substr(0, 30));
     require(least == "2.0" || least.starts_with("1.") || least.starts_with("0."),
             ErrorCode::asset_unsupported, "/asset/minVersion", "the asset needs glTF {}; glTF 2.0 is read",
@@ -126,11 +137,11 @@ std::vector<std::string> extensions_with_unknown_indices(const Json& document) {
     return {found.begin(), found.end()};
 }
 
-void check_extensions(Parsed& parsed) {
+void check_extensions(Parsed& parsed, const Watch& watch) {
     const Json& document = parsed.json;
     const Json& used = list(document, "extensionsUsed");
     const Json& required = list(document, "extensionsRequired");
-    const std::map<std::string, std::string> uses = geometric_uses(document);
+    const Uses uses = geometric_uses(document, watch);
     std::set<std::string> declared;
     for (const Json& name : used) declared.insert(name.get<std::string>());
     for (size_t i = 0; i < required.size(); ++i) {
@@ -139,7 +150,7 @@ void check_extensions(Parsed& parsed) {
                "is {}, which is not in extensionsUsed", name.substr(0, 100));
         if (is_known(name)) continue;
         if (const auto use = uses.find(name); use != uses.end())
-            fail(ErrorCode::asset_extension_unsupported, use->second,
+            fail(ErrorCode::asset_extension_unsupported, use->second.text(),
                  fmt::format("{} needs the extension {}, which is required and not known here", use->second,
                              name.substr(0, 100)));
     }
@@ -147,9 +158,9 @@ void check_extensions(Parsed& parsed) {
         return std::find(names.begin(), names.end(), name) != names.end();
     };
     demand(!lists(used, "KHR_mesh_quantization") || lists(required, "KHR_mesh_quantization"),
-           "/extensionsUsed", "lists KHR_mesh_quantization, which must be in extensionsRequired too");
+           pointer("extensionsUsed"), "lists KHR_mesh_quantization, which must be in extensionsRequired too");
     if (const auto use = uses.find("KHR_meshopt_compression"); use != uses.end())
-        fail(ErrorCode::asset_extension_unsupported, use->second,
+        fail(ErrorCode::asset_extension_unsupported, use->second.text(),
              fmt::format("{} is compressed with KHR_meshopt_compression, which is not read; "
                          "EXT_meshopt_compression is",
                          use->second));
@@ -159,18 +170,6 @@ void check_extensions(Parsed& parsed) {
             fmt::format("the extension {} holds numbers that may be indices: it is kept as it is, and all "
                         "accessors and buffer views keep theirs",
                         name));
-}
-
-void check_counts(const Json& document, const ReadLimits& limits) {
-    const auto at_most = [&](const char* array, size_t count, uint64_t limit, const char* setting) {
-        require(count <= limit, ErrorCode::asset_too_large, pointer(array),
-                "there are {} {}; at most {} are read (limit {})", count, array, limit, setting);
-    };
-    at_most("nodes", list(document, "nodes").size(), limits.nodes, "nodes");
-    at_most("images", list(document, "images").size(), limits.images, "images");
-    size_t primitives = list(document, "meshes").size();
-    for (const Json& mesh : list(document, "meshes")) primitives += list(mesh, "primitives").size();
-    at_most("meshes", primitives, limits.meshes_and_primitives, "meshes_and_primitives");
 }
 
 }  // namespace coppice::gltf

@@ -46,6 +46,26 @@ bool needs_tangents(const Json& material) {
            (anisotropy != nullptr && anisotropy->contains("anisotropyTexture"));
 }
 
+// What a material asks of the primitives that it is on.
+struct Needs {
+    uint64_t texture_sets = 0;
+    bool tangents = false;
+};
+
+Needs needs_of(const Json& material) {
+    return {texture_sets(material), needs_tangents(material) && !material.contains("normalTexture")};
+}
+
+void check_needs(const Json& primitive, const Needs& needs, uint32_t material, const Pointer& where) {
+    const Json& attributes = primitive["attributes"];
+    if (needs.texture_sets > 0) {
+        const std::string last = fmt::format("TEXCOORD_{}", needs.texture_sets - 1);
+        demand(attributes.contains(last), where, "has no {}, which its material {} needs", last, material);
+    }
+    demand(!needs.tangents || (attributes.contains("TANGENT") && attributes.contains("NORMAL")), where,
+           "has no tangents, which its material {} needs", material);
+}
+
 // Materials of a primitive: its own and its variants.
 std::vector<uint32_t> materials_of(const Json& primitive) {
     std::vector<uint32_t> materials;
@@ -56,11 +76,11 @@ std::vector<uint32_t> materials_of(const Json& primitive) {
     return materials;
 }
 
-void check_variants(const Json& document, const Json& primitive, const std::string& where) {
+void check_variants(const Json& document, const Json& primitive, const Pointer& where) {
     const Json* variants = extension(primitive, "KHR_materials_variants");
     if (variants == nullptr) return;
     const Json* root = extension(document, "KHR_materials_variants");
-    const std::string at = where + "/extensions/KHR_materials_variants";
+    const Pointer at = where / "extensions" / "KHR_materials_variants";
     demand(root != nullptr, at, "is there, but the document lists no variants in its own extensions");
     std::set<uint32_t> seen;
     for (const Json& mapping : list(*variants, "mappings"))
@@ -73,52 +93,47 @@ void check_variants(const Json& document, const Json& primitive, const std::stri
         }
 }
 
-void check_texture_source(const Parsed& parsed, const Json& holder, bool is_webp, const std::string& where) {
+void check_texture_source(const Parsed& parsed, const Json& holder, bool is_webp, const Pointer& where) {
     const auto source = index_at(holder, "source");
     if (!source) return;
     const std::string& type = parsed.images[*source].mime_type;
     if (is_webp)
-        demand(type.empty() || type == "image/webp", where + "/source",
+        demand(type.empty() || type == "image/webp", where / "source",
                "is image {}, which is {} instead of image/webp", *source, type);
     else
-        demand(type.empty() || type == "image/png" || type == "image/jpeg", where + "/source",
+        demand(type.empty() || type == "image/png" || type == "image/jpeg", where / "source",
                "is image {}, which is {} instead of image/png or image/jpeg", *source, type);
 }
 
 }  // namespace
 
-void check_materials(Parsed& parsed) {
+void check_materials(Parsed& parsed, const Watch& watch) {
     const Json& document = parsed.json;
+    std::vector<Needs> needs;  // per material
+    for (const Json& material : list(document, "materials")) needs.push_back(needs_of(material));
     const Json& meshes = list(document, "meshes");
     for (size_t m = 0; m < meshes.size(); ++m)
         for (size_t p = 0; p < meshes[m]["primitives"].size(); ++p) {
+            watch.check();
             const Json& primitive = meshes[m]["primitives"][p];
-            const std::string where = pointer("meshes", m, "primitives", p);
+            const Pointer where = pointer("meshes", m, "primitives", p);
             check_variants(document, primitive, where);
-            for (const uint32_t index : materials_of(primitive)) {
-                const Json& material = document["materials"][index];
-                const uint64_t sets = texture_sets(material);
-                demand(sets == 0 || primitive["attributes"].contains(fmt::format("TEXCOORD_{}", sets - 1)),
-                       where, "has no TEXCOORD_{}, which its material {} needs", sets - 1, index);
-                const bool has_tangents =
-                    primitive["attributes"].contains("TANGENT") && primitive["attributes"].contains("NORMAL");
-                demand(has_tangents || !needs_tangents(material) || material.contains("normalTexture"), where,
-                       "has no tangents, which its material {} needs", index);
-            }
+            for (const uint32_t index : materials_of(primitive))
+                check_needs(primitive, needs[index], index, where);
         }
     const Json& textures = list(document, "textures");
     for (size_t i = 0; i < textures.size(); ++i) {
-        const std::string where = pointer("textures", i);
+        const Pointer where = pointer("textures", i);
         check_texture_source(parsed, textures[i], false, where);
         if (const Json* webp = extension(textures[i], "EXT_texture_webp"))
-            check_texture_source(parsed, *webp, true, where + "/extensions/EXT_texture_webp");
+            check_texture_source(parsed, *webp, true, where / "extensions" / "EXT_texture_webp");
     }
 }
 
 void check_cameras_and_lights(const Parsed& parsed) {
     const Json& cameras = list(parsed.json, "cameras");
     for (size_t i = 0; i < cameras.size(); ++i) {
-        const std::string where = pointer("cameras", i);
+        const Pointer where = pointer("cameras", i);
         demand(cameras[i].contains("perspective") != cameras[i].contains("orthographic"), where,
                "must have exactly one of perspective and orthographic");
         const std::string type = text_at(cameras[i], "type");
@@ -136,22 +151,22 @@ void check_cameras_and_lights(const Parsed& parsed) {
     const Json* root = extension(parsed.json, "KHR_lights_punctual");
     const Json& lights = root == nullptr ? list(parsed.json, "no lights") : (*root)["lights"];
     for (size_t i = 0; i < lights.size(); ++i) {
-        const std::string where = pointer("extensions/KHR_lights_punctual/lights", i);
+        const Pointer where = pointer("extensions", "KHR_lights_punctual", "lights", i);
         demand(text_at(lights[i], "type") != "spot" || lights[i].contains("spot"), where,
                "is a spot light, but has no 'spot'");
         const Json& spot = member(lights[i], "spot");
         const double inner = number_at(spot, "innerConeAngle");
         const double outer = number_at(spot, "outerConeAngle", 0.7853981633974483);
-        demand(inner < outer, where + "/spot/outerConeAngle",
+        demand(inner < outer, where / "spot" / "outerConeAngle",
                "is {}, which must be greater than innerConeAngle {}", outer, inner);
     }
     const Json& nodes = list(parsed.json, "nodes");
     for (size_t i = 0; i < nodes.size(); ++i) {
         const Json* light = extension(nodes[i], "KHR_lights_punctual");
         if (light == nullptr) continue;
-        const std::string where = pointer("nodes", i, "extensions/KHR_lights_punctual");
+        const Pointer where = pointer("nodes", i, "extensions", "KHR_lights_punctual");
         demand(root != nullptr, where, "is there, but the document lists no lights in its own extensions");
-        demand(unsigned_at(*light, "light") < lights.size(), where + "/light",
+        demand(unsigned_at(*light, "light") < lights.size(), where / "light",
                "is {}, but there are {} lights", unsigned_at(*light, "light"), lights.size());
     }
 }

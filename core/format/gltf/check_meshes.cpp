@@ -11,8 +11,9 @@ namespace {
 
 class MeshCheck {
   public:
-    explicit MeshCheck(Parsed& parsed)
+    MeshCheck(Parsed& parsed, const Watch& watch)
         : parsed_(parsed),
+          watch_(watch),
           vertex_accessor_(parsed.views.size()),
           quantization_(uses_quantization(parsed.json)) {}
 
@@ -21,8 +22,9 @@ class MeshCheck {
         const Json& primitives = mesh["primitives"];
         const size_t targets = list(primitives[0], "targets").size();
         for (size_t p = 0; p < primitives.size(); ++p) {
-            const std::string where = pointer("meshes", index, "primitives", p);
-            demand(list(primitives[p], "targets").size() == targets, where + "/targets",
+            watch_.check();
+            const Pointer where = pointer("meshes", index, "primitives", p);
+            demand(list(primitives[p], "targets").size() == targets, where / "targets",
                    "has {} morph targets, but primitive 0 has {}", list(primitives[p], "targets").size(),
                    targets);
             primitive(primitives[p], where);
@@ -38,21 +40,21 @@ class MeshCheck {
         return std::find(used.begin(), used.end(), "KHR_mesh_quantization") != used.end();
     }
 
-    void primitive(const Json& primitive, const std::string& where) {
+    void primitive(const Json& primitive, const Pointer& where) {
         const Json& attributes = primitive["attributes"];
         const uint64_t count = parsed_.accessors[attributes.begin()->get<uint32_t>()].count;
         for (const auto& [name, accessor] : attributes.items()) {
-            const std::string at = where + "/attributes/" + name;
+            const Pointer at = where / "attributes" / name;
             attribute(name, accessor.get<uint32_t>(), false, at);
             demand(parsed_.accessors[accessor.get<uint32_t>()].count == count, at,
                    "has {} elements, but other attributes of the primitive have {}",
                    parsed_.accessors[accessor.get<uint32_t>()].count, count);
         }
-        check_sets(attributes, where + "/attributes");
+        check_sets(attributes, where / "attributes");
         const Json& targets = list(primitive, "targets");
         for (size_t t = 0; t < targets.size(); ++t)
             for (const auto& [name, accessor] : targets[t].items()) {
-                const std::string at = where + fmt::format("/targets/{}/{}", t, name);
+                const Pointer at = where / "targets" / t / name;
                 demand(attributes.contains(name), at,
                        "is a morph target of {}, which the primitive does not have", name);
                 attribute(name, accessor.get<uint32_t>(), true, at);
@@ -60,10 +62,10 @@ class MeshCheck {
                        "has {} elements, but the primitive has {} vertices",
                        parsed_.accessors[accessor.get<uint32_t>()].count, count);
             }
-        if (primitive.contains("indices")) indices(*index_at(primitive, "indices"), where + "/indices");
+        if (primitive.contains("indices")) indices(*index_at(primitive, "indices"), where / "indices");
     }
 
-    void attribute(std::string_view name, uint32_t index, bool is_delta, const std::string& where) {
+    void attribute(std::string_view name, uint32_t index, bool is_delta, const Pointer& where) {
         const AttributeName parsed_name = parse_attribute_name(name);
         demand(parsed_name.semantic != Semantic::invalid, where,
                "is no attribute name; there are POSITION, NORMAL, TANGENT, TEXCOORD_n, COLOR_n, JOINTS_n, "
@@ -84,7 +86,7 @@ class MeshCheck {
         if (const auto view = index_at(json, "bufferView")) vertex_view(*view, index, accessor, where);
     }
 
-    void vertex_view(uint32_t view, uint32_t index, const Accessor& accessor, const std::string& where) {
+    void vertex_view(uint32_t view, uint32_t index, const Accessor& accessor, const Pointer& where) {
         set_view_usage(parsed_, view, ViewUsage::vertices, where);
         const Json& json = parsed_.json["bufferViews"][view];
         const bool has_stride = json.contains("byteStride");
@@ -99,7 +101,7 @@ class MeshCheck {
     }
 
     // Sets are counted from 0 without gaps; as many joints as weights.
-    static void check_sets(const Json& attributes, const std::string& where) {
+    static void check_sets(const Json& attributes, const Pointer& where) {
         std::array<std::array<uint32_t, 2>, 4> sets{};  // per semantic: how many, one past the largest
         for (const auto& [name, accessor] : attributes.items()) {
             const AttributeName parsed_name = parse_attribute_name(name);
@@ -118,7 +120,7 @@ class MeshCheck {
                sets[2][0], sets[3][0]);
     }
 
-    void indices(uint32_t index, const std::string& where) {
+    void indices(uint32_t index, const Pointer& where) {
         const Accessor& accessor = parsed_.accessors[index];
         const ComponentType type = accessor.storage.type;
         demand(accessor.components() == 1 && !accessor.storage.normalized &&
@@ -134,13 +136,14 @@ class MeshCheck {
     }
 
     Parsed& parsed_;
+    const Watch& watch_;
     std::vector<std::optional<uint32_t>> vertex_accessor_;  // per view without byteStride
     bool quantization_;
 };
 
 }  // namespace
 
-void set_usage(Parsed& parsed, uint32_t accessor, Usage usage, const std::string& where) {
+void set_usage(Parsed& parsed, uint32_t accessor, Usage usage, const Pointer& where) {
     Usage& current = parsed.usages[accessor];
     demand(current == Usage::none || current == usage, where,
            "is accessor {}, which is already used as something else (indices, attributes, inverse bind "
@@ -150,7 +153,7 @@ void set_usage(Parsed& parsed, uint32_t accessor, Usage usage, const std::string
     current = usage;
 }
 
-void set_view_usage(Parsed& parsed, uint32_t view, ViewUsage usage, const std::string& where) {
+void set_view_usage(Parsed& parsed, uint32_t view, ViewUsage usage, const Pointer& where) {
     constexpr const char* names[] = {"nothing",  "vertices",  "indices", "inverse bind matrices",
                                      "an image", "other data"};
     ViewUsage& current = parsed.view_usages[view];
@@ -160,22 +163,23 @@ void set_view_usage(Parsed& parsed, uint32_t view, ViewUsage usage, const std::s
     current = usage;
 }
 
-void check_meshes(Parsed& parsed) {
-    MeshCheck check(parsed);
+void check_meshes(Parsed& parsed, const Watch& watch) {
+    MeshCheck check(parsed, watch);
     for (size_t i = 0; i < list(parsed.json, "meshes").size(); ++i) check.mesh(i);
 }
 
-void check_instancing(Parsed& parsed) {
+void check_instancing(Parsed& parsed, const Watch& watch) {
     const Json& nodes = list(parsed.json, "nodes");
     for (size_t i = 0; i < nodes.size(); ++i) {
+        watch.check();
         const Json* instancing = extension(nodes[i], "EXT_mesh_gpu_instancing");
         if (instancing == nullptr) continue;
-        const std::string where = pointer("nodes", i, "extensions/EXT_mesh_gpu_instancing");
+        const Pointer where = pointer("nodes", i, "extensions", "EXT_mesh_gpu_instancing");
         demand(nodes[i].contains("mesh"), where, "is there, but the node has no mesh");
         const Json& attributes = (*instancing)["attributes"];
         const uint64_t count = parsed.accessors[attributes.begin()->get<uint32_t>()].count;
         for (const auto& [name, index] : attributes.items()) {
-            const std::string at = where + "/attributes/" + name;
+            const Pointer at = where / "attributes" / name;
             const Accessor& accessor = parsed.accessors[index.get<uint32_t>()];
             set_usage(parsed, index.get<uint32_t>(), Usage::instancing, at);
             demand(accessor.count == count, at, "has {} elements, but other attributes have {}",

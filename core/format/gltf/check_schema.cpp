@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/base/error.h"
+#include "core/format/gltf/parsed.h"
 #include "core/format/gltf/schema.h"
 
 namespace coppice::gltf {
@@ -15,75 +15,68 @@ namespace {
 
 constexpr double largest_integer = 9007199254740991.0;  // 2^53 - 1: the largest that JSON carries safely
 
-std::string escaped(std::string_view key) {
-    std::string out;
-    for (const char c : key.substr(0, 200)) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-    return out;
-}
-
 std::string shown(const Json& value) {
     std::string text = value.is_structured() ? std::string(value.type_name()) : print_json(value);
     return text.size() > 60 ? text.substr(0, 57) + "..." : text;
 }
 
+template <typename Value>
+bool has_equal(std::vector<Value> values) {
+    std::sort(values.begin(), values.end());
+    return std::adjacent_find(values.begin(), values.end()) != values.end();
+}
+
+// Of whole numbers that are not negative, or of strings: it has passed the checks of its elements.
+bool has_equal_elements(const Json& array, Kind kind) {
+    if (kind != Kind::text) return has_equal(array.get<std::vector<uint64_t>>());
+    std::vector<std::string_view> texts;
+    for (const Json& item : array) texts.push_back(item.get_ref<const std::string&>());
+    return has_equal(std::move(texts));
+}
+
+// Every value is looked at here, so nothing is made for a message before it is told: test, then refuse().
 class SchemaCheck {
   public:
-    explicit SchemaCheck(Json& document) : document_(document) {
-        for (const char* list : {"extensionsUsed"})
-            if (document.contains(list) && document[list].is_array())
-                for (const Json& name : document[list])
-                    if (name.is_string()) used_.insert(name.get<std::string>());
+    SchemaCheck(Json& document, const Watch& watch) : document_(document), watch_(watch) {
+        for (const Json& name : list(document, "extensionsUsed"))
+            if (name.is_string()) used_.insert(name.get<std::string>());
     }
 
     void object(Json& value, const Schema& schema) {
-        demand(value.is_object(), "must be an object ({}), but is {}", schema.name, shown(value));
+        watch_.check();
+        if (!value.is_object()) refuse("must be an object ({}), but is {}", schema.name, shown(value));
         for (const Property& property : schema.properties) {
             const auto found = value.find(property.name);
-            if (found == value.end()) {
-                demand(!property.required_, "has no '{}', which every {} must have", property.name,
-                       schema.name);
-                continue;
+            if (found != value.end()) {
+                where_.push(property.name);
+                check(*found, property);
+                where_.pop();
+            } else if (property.required_) {
+                refuse("has no '{}', which every {} must have", property.name, schema.name);
             }
-            const size_t length = push(property.name);
-            check(*found, property);
-            pointer_.resize(length);
         }
         extensions(value, schema.name);
     }
 
   private:
     template <typename... Args>
-    void demand(bool condition, fmt::format_string<Args...> message, Args&&... args) const {
-        if (!condition)
-            fail(ErrorCode::asset_malformed, pointer_,
-                 fmt::format("{} {}", pointer_.empty() ? "the document" : pointer_,
-                             fmt::format(message, std::forward<Args>(args)...)));
-    }
-
-    size_t push(std::string_view key) {
-        const size_t length = pointer_.size();
-        pointer_ += '/';
-        pointer_ += escaped(key);
-        return length;
+    [[noreturn]] void refuse(fmt::format_string<Args...> message, Args&&... args) const {
+        gltf::refuse(where_, message, std::forward<Args>(args)...);
     }
 
     void check(Json& value, const Property& property) {
         if (!property.is_array) return element(value, property);
-        demand(value.is_array(), "must be an array, but is {}", shown(value));
-        demand(value.size() >= property.min_items && value.size() <= property.max_items,
-               "has {} elements; {}", value.size(),
-               property.min_items == property.max_items
-                   ? fmt::format("it must have {}", property.min_items)
-                   : fmt::format("it must have at least {}", property.min_items));
+        if (!value.is_array()) refuse("must be an array, but is {}", shown(value));
+        if (value.size() < property.min_items || value.size() > property.max_items)
+            refuse("has {} elements; it must have {}{}", value.size(),
+                   property.min_items == property.max_items ? "" : "at least ", property.min_items);
         for (size_t i = 0; i < value.size(); ++i) {
-            const size_t length = push(std::to_string(i));
+            where_.push(i);
             element(value[i], property);
-            pointer_.resize(length);
+            where_.pop();
         }
-        if (property.is_unique) {
-            std::set<Json> seen(value.begin(), value.end());
-            demand(seen.size() == value.size(), "has the same element twice");
-        }
+        if (property.is_unique && has_equal_elements(value, property.kind))
+            refuse("has the same element twice");
     }
 
     void element(Json& value, const Property& property) {
@@ -91,7 +84,8 @@ class SchemaCheck {
             case Kind::any:
                 return;
             case Kind::boolean:
-                return demand(value.is_boolean(), "must be true or false, but is {}", shown(value));
+                if (!value.is_boolean()) refuse("must be true or false, but is {}", shown(value));
+                return;
             case Kind::text:
                 return text(value, property);
             case Kind::number:
@@ -108,90 +102,88 @@ class SchemaCheck {
     }
 
     void text(const Json& value, const Property& property) const {
-        demand(value.is_string(), "must be a string, but is {}", shown(value));
+        if (!value.is_string()) refuse("must be a string, but is {}", shown(value));
         const auto& allowed = property.texts;
         if (allowed.empty()) return;
-        demand(
-            std::find(allowed.begin(), allowed.end(), value.get_ref<const std::string&>()) != allowed.end(),
-            "is {}; it must be one of {}", shown(value), fmt::join(allowed, ", "));
+        const auto& is = value.get_ref<const std::string&>();
+        if (std::find(allowed.begin(), allowed.end(), is) == allowed.end())
+            refuse("is {}; it must be one of {}", shown(value), fmt::join(allowed, ", "));
     }
 
     void range(const Json& value, double number, const Property& property) const {
-        const bool inside = number >= property.min && number <= property.max &&
-                            !(property.above_min && number == property.min);
-        demand(inside, "is {}; it must be {} {}{}", shown(value), property.above_min ? "above" : "at least",
+        const bool above = property.above_min ? number > property.min : number >= property.min;
+        if (above && number <= property.max) return;
+        refuse("is {}; it must be {} {}{}", shown(value), property.above_min ? "above" : "at least",
                property.min,
                std::isinf(property.max) ? std::string() : fmt::format(" and at most {}", property.max));
     }
 
     void number(const Json& value, const Property& property) const {
-        demand(value.is_number(), "must be a number, but is {}", shown(value));
-        demand(std::isfinite(value.get<double>()), "must be finite, but is {}", shown(value));
-        if (!std::isinf(property.min) || !std::isinf(property.max))
-            range(value, value.get<double>(), property);
+        if (!value.is_number()) refuse("must be a number, but is {}", shown(value));
+        if (!std::isfinite(value.get<double>())) refuse("must be finite, but is {}", shown(value));
+        range(value, value.get<double>(), property);
     }
 
     void whole_number(Json& value) const {
-        demand(value.is_number(), "must be an integer, but is {}", shown(value));
+        if (!value.is_number()) refuse("must be an integer, but is {}", shown(value));
         if (value.is_number_float()) {
             const double number = value.get<double>();
-            demand(number == std::floor(number) && std::abs(number) <= largest_integer,
-                   "must be an integer, but is {}", shown(value));
+            if (number != std::floor(number) || std::abs(number) > largest_integer)
+                refuse("must be an integer, but is {}", shown(value));
             if (number < 0)
                 value = static_cast<int64_t>(number);
             else
                 value = static_cast<uint64_t>(number);
         }
-        if (value.is_number_unsigned())
-            demand(value.get<uint64_t>() <= static_cast<uint64_t>(largest_integer),
-                   "is {}; a number may be at most {:.0f}", shown(value), largest_integer);
+        if (value.is_number_unsigned() && value.get<uint64_t>() > static_cast<uint64_t>(largest_integer))
+            refuse("is {}; a number may be at most {:.0f}", shown(value), largest_integer);
     }
 
     void integer(Json& value, const Property& property) const {
         whole_number(value);
         const auto& allowed = property.integers;
         const double number = value.get<double>();
-        if (!allowed.empty())
-            demand(std::any_of(allowed.begin(), allowed.end(),
-                               [&](int64_t a) { return static_cast<double>(a) == number; }),
-                   "is {}; it must be one of {}", shown(value), fmt::join(allowed, ", "));
+        const auto is_it = [number](int64_t a) { return static_cast<double>(a) == number; };
+        if (!allowed.empty() && std::none_of(allowed.begin(), allowed.end(), is_it))
+            refuse("is {}; it must be one of {}", shown(value), fmt::join(allowed, ", "));
         range(value, number, property);
     }
 
     // of: an array of the root; empty: any index.
     void reference(Json& value, std::string_view of) const {
         whole_number(value);
-        demand(value.is_number_unsigned() && value.get<uint64_t>() <= UINT32_MAX,
-               "must be an index, but is {}", shown(value));
+        if (!value.is_number_unsigned() || value.get<uint64_t>() > UINT32_MAX)
+            refuse("must be an index, but is {}", shown(value));
         if (of.empty()) return;
-        const auto array = document_.find(of);
-        const size_t size = array != document_.end() && array->is_array() ? array->size() : 0;
-        demand(value.get<uint64_t>() < size, "refers to {} {}, but there are {}", of, shown(value), size);
+        const Json& array = list(document_, of);
+        const size_t size = array.is_array() ? array.size() : 0;
+        if (value.get<uint64_t>() >= size)
+            refuse("refers to {} {}, but there are {}", of, shown(value), size);
     }
 
     void reference_map(Json& value, std::string_view of) {
-        demand(value.is_object(), "must be an object, but is {}", shown(value));
-        demand(!value.empty(), "is empty; it must name at least one accessor");
-        for (auto& [key, item] : value.items()) {
-            const size_t length = push(key);
+        if (!value.is_object()) refuse("must be an object, but is {}", shown(value));
+        if (value.empty()) refuse("is empty; it must name at least one accessor");
+        for (auto& [key, item] : value.get_ref<Json::object_t&>()) {
+            where_.push(key);
             reference(item, of);
-            pointer_.resize(length);
+            where_.pop();
         }
     }
 
     void extensions(Json& value, std::string_view schema) {
         const auto found = value.find("extensions");
         if (found == value.end()) return;
-        const size_t outer = push("extensions");
-        demand(found->is_object(), "must be an object, but is {}", shown(*found));
-        for (auto& [name, content] : found->items()) {
-            const size_t length = push(name);
-            demand(content.is_object(), "must be an object, but is {}", shown(content));
-            demand(used_.contains(name), "is not declared in extensionsUsed");
+        where_.push("extensions");
+        if (!found->is_object()) refuse("must be an object, but is {}", shown(*found));
+        for (auto& [name, content] : found->get_ref<Json::object_t&>()) {
+            where_.push(name);
+            if (!content.is_object()) refuse("must be an object, but is {}", shown(content));
+            if (!used_.contains(name)) refuse("is not declared in extensionsUsed");
             extension(name, content, schema);
-            pointer_.resize(length);
+            where_.pop();
         }
-        pointer_.resize(outer);
+        where_.pop();
     }
 
     void extension(const std::string& name, Json& content, std::string_view on) {
@@ -203,18 +195,19 @@ class SchemaCheck {
             if (!place.schema.empty()) object(content, *find_schema(place.schema));
             return;
         }
-        demand(!known, "is at a place where this extension has no meaning (on a {})", on);
+        if (known) refuse("is at a place where this extension has no meaning (on a {})", on);
     }
 
     Json& document_;
+    const Watch& watch_;
     std::set<std::string> used_;
-    std::string pointer_;
+    Pointer where_;
 };
 
 }  // namespace
 
-void check_schema(Json& document) {
-    SchemaCheck(document).object(document, *find_schema("root"));
+void check_schema(Json& document, const Watch& watch) {
+    SchemaCheck(document, watch).object(document, *find_schema("root"));
 }
 
 }  // namespace coppice::gltf

@@ -15,23 +15,23 @@ constexpr double unit_tolerance = 0.00674;  // as Khronos' validator has it
 // The pass over the vertex data; each accessor is looked at once per thing it is used for.
 class VertexCheck {
   public:
-    VertexCheck(Parsed& parsed, const Watch& watch) : parsed_(parsed), watch_(watch) {}
+    VertexCheck(Parsed& parsed, const ReadLimits& limits, const Watch& watch)
+        : parsed_(parsed), limits_(limits), watch_(watch), index_ends_(parsed.accessors.size()) {}
 
-    void primitive(const Json& primitive, const std::string& where) {
+    void primitive(const Json& primitive, const Pointer& where) {
         if (extension(primitive, "KHR_draco_mesh_compression") != nullptr) return;
         for (const auto& [name, accessor] : primitive["attributes"].items())
-            attribute(name, accessor.get<uint32_t>(), false, where + "/attributes/" + name);
+            attribute(name, accessor.get<uint32_t>(), false, where / "attributes" / name);
         const Json& targets = list(primitive, "targets");
         for (size_t t = 0; t < targets.size(); ++t)
             for (const auto& [name, accessor] : targets[t].items())
-                attribute(name, accessor.get<uint32_t>(), true,
-                          where + fmt::format("/targets/{}/{}", t, name));
+                attribute(name, accessor.get<uint32_t>(), true, where / "targets" / t / name);
         if (!primitive.contains("indices")) return;
         const uint64_t vertices = parsed_.accessors[primitive["attributes"].begin()->get<uint32_t>()].count;
-        indices(*index_at(primitive, "indices"), vertices, where + "/indices");
+        indices(*index_at(primitive, "indices"), vertices, where / "indices");
     }
 
-    void influences(const Json& primitive, size_t joint_count, const std::string& where) {
+    void influences(const Json& primitive, size_t joint_count, const Pointer& where) {
         std::vector<uint32_t> accessors;
         for (const char* prefix : {"JOINTS_", "WEIGHTS_"})
             for (size_t set = 0; primitive["attributes"].contains(prefix + std::to_string(set)); ++set)
@@ -43,6 +43,7 @@ class VertexCheck {
         std::vector<uint32_t> key = accessors;
         key.push_back(static_cast<uint32_t>(joint_count));
         if (!seen_influences_.insert(key).second) return;
+        demand_influences_within_limit(accessors, where);
         for (uint64_t v = 0; v < parsed_.accessors[accessors[0]].count; ++v) {
             if (v % 65536 == 0) watch_.check();
             vertex_influences(accessors, v, joint_count, where);
@@ -50,7 +51,7 @@ class VertexCheck {
     }
 
   private:
-    void attribute(std::string_view name, uint32_t index, bool is_delta, const std::string& where) {
+    void attribute(std::string_view name, uint32_t index, bool is_delta, const Pointer& where) {
         const Semantic semantic = parse_attribute_name(name).semantic;
         // What is used as a position, too, must not be repaired.
         const bool repairable = semantic == Semantic::normal || semantic == Semantic::tangent ||
@@ -67,7 +68,7 @@ class VertexCheck {
         if (semantic == Semantic::color) colors(index, where);
     }
 
-    void unit_vectors(uint32_t index, bool is_tangent, const std::string& where) {
+    void unit_vectors(uint32_t index, bool is_tangent, const Pointer& where) {
         const Accessor& accessor = parsed_.accessors[index];
         if (accessor.has_no_data()) return;
         uint64_t wrong = 0;
@@ -91,7 +92,7 @@ class VertexCheck {
                      where);
     }
 
-    void colors(uint32_t index, const std::string& where) {
+    void colors(uint32_t index, const Pointer& where) {
         const Accessor& accessor = parsed_.accessors[index];
         if (accessor.storage.type != ComponentType::float32) return;
         for (uint64_t i = 0; i < accessor.count; ++i) {
@@ -104,24 +105,43 @@ class VertexCheck {
         }
     }
 
-    void indices(uint32_t index, uint64_t vertices, const std::string& where) {
-        if (!seen_indices_.insert({index, vertices}).second) return;
+    void indices(uint32_t index, uint64_t vertices, const Pointer& where) {
         const Accessor& accessor = parsed_.accessors[index];
+        if (!index_ends_[index]) index_ends_[index] = end_of(accessor, index, where);
+        if (*index_ends_[index] <= vertices) return;
+        uint64_t i = 0;
+        while (accessor.integer(i) < vertices) ++i;
+        refuse(where, "is accessor {}, whose element {} is {}, but there are {} vertices", index, i,
+               accessor.integer(i), vertices);
+    }
+
+    // One past the largest index.
+    uint64_t end_of(const Accessor& accessor, uint32_t index, const Pointer& where) const {
         const uint64_t restart = (uint64_t{1} << (8 * size_of(accessor.storage.type))) - 1;
+        uint64_t end = 0;
         for (uint64_t i = 0; i < accessor.count; ++i) {
             if (i % 65536 == 0) watch_.check();
             const uint32_t vertex = accessor.integer(i);
             demand(vertex != restart, where,
                    "is accessor {}, whose element {} is {}, which restarts primitives", index, i, vertex);
-            demand(vertex < vertices, where,
-                   "is accessor {}, whose element {} is {}, but there are {} vertices", index, i, vertex,
-                   vertices);
+            end = std::max(end, uint64_t{vertex} + 1);
         }
+        return end;
+    }
+
+    // Accessors may be combined in more ways than there are accessors.
+    void demand_influences_within_limit(const std::vector<uint32_t>& accessors, const Pointer& where) {
+        for (const uint32_t index : accessors)
+            influence_bytes_ += parsed_.accessors[index].count * parsed_.accessors[index].tight_stride();
+        require(
+            influence_bytes_ <= limits_.attribute_bytes, ErrorCode::asset_too_large, where,
+            "the skinned primitives have more than {} bytes of joints and weights (limit attribute_bytes)",
+            limits_.attribute_bytes);
     }
 
     // accessors: joints, then as many weights.
     void vertex_influences(const std::vector<uint32_t>& accessors, uint64_t vertex, size_t joint_count,
-                           const std::string& where) {
+                           const Pointer& where) {
         std::set<uint32_t> used;
         float sum = 0;
         float tolerance = 0;
@@ -144,10 +164,12 @@ class VertexCheck {
     }
 
     Parsed& parsed_;
+    const ReadLimits& limits_;
     const Watch& watch_;
     std::set<uint32_t> refused_;
     std::set<std::pair<uint32_t, Semantic>> seen_;
-    std::set<std::pair<uint32_t, uint64_t>> seen_indices_;
+    std::vector<std::optional<uint64_t>> index_ends_;  // per accessor, once it was looked at
+    uint64_t influence_bytes_ = 0;
     std::set<std::vector<uint32_t>> seen_influences_;
 };
 
@@ -167,16 +189,17 @@ std::map<uint32_t, size_t> joints_per_mesh(const Json& document) {
 
 }  // namespace
 
-void check_vertex_data(Parsed& parsed, const Watch& watch) {
-    VertexCheck check(parsed, watch);
+void check_vertex_data(Parsed& parsed, const ReadLimits& limits, const Watch& watch) {
+    VertexCheck check(parsed, limits, watch);
     const Json& meshes = list(parsed.json, "meshes");
     const std::map<uint32_t, size_t> joints = joints_per_mesh(parsed.json);
     for (uint32_t m = 0; m < meshes.size(); ++m)
         for (size_t p = 0; p < meshes[m]["primitives"].size(); ++p) {
-            const std::string where = pointer("meshes", m, "primitives", p);
+            watch.check();
+            const Pointer where = pointer("meshes", m, "primitives", p);
             check.primitive(meshes[m]["primitives"][p], where);
             if (const auto found = joints.find(m); found != joints.end())
-                check.influences(meshes[m]["primitives"][p], found->second, where + "/attributes");
+                check.influences(meshes[m]["primitives"][p], found->second, where / "attributes");
         }
 }
 

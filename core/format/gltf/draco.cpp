@@ -6,21 +6,30 @@
 #include <array>
 #include <memory>
 
+#include "core/format/gltf/draco_header.h"
+
 namespace coppice::gltf {
 
 namespace {
 
-std::unique_ptr<draco::Mesh> decode_mesh(ByteView bytes, const std::string& where) {
+std::unique_ptr<draco::Mesh> decode_mesh(ByteView bytes, const Pointer& where) {
     const auto* data = reinterpret_cast<const char*>(bytes.data());
     draco::DecoderBuffer buffer;
-    buffer.Init(data, bytes.size());
-    auto type = draco::Decoder::GetEncodedGeometryType(&buffer);
-    demand(type.ok() && type.value() == draco::TRIANGULAR_MESH, where, "is not a Draco stream of triangles");
     buffer.Init(data, bytes.size());
     draco::Decoder decoder;
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
     demand(decoded.ok(), where, "cannot be decoded: {}", decoded.status().error_msg_string());
     return std::move(decoded).value();
+}
+
+// What the stream says of itself, before anything is allocated for it.
+void check_sizes(ByteView stream, uint64_t vertex_count, uint64_t triangle_limit, const Pointer& where) {
+    const auto sizes = draco_sizes(stream);
+    demand(sizes.has_value(), where, "is not a Draco stream of triangles");
+    require(sizes->triangles <= triangle_limit, ErrorCode::asset_too_large, where,
+            "{} has more triangles than are read (limit triangles)", where);
+    demand(sizes->vertices <= vertex_count, where,
+           "has {} vertices in its accessors, but the Draco stream has {}", vertex_count, sizes->vertices);
 }
 
 template <typename T>
@@ -53,7 +62,7 @@ bool stored_value(const draco::PointAttribute& attribute, draco::AttributeValueI
 }
 
 Bytes stored_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, const Accessor& as,
-                    const std::string& where) {
+                    const Pointer& where) {
     const uint32_t components = as.components();
     demand(attribute.num_components() == static_cast<int>(components), where,
            "has {} components in the Draco stream, but {} in its accessor", attribute.num_components(),
@@ -71,7 +80,7 @@ Bytes stored_values(const draco::Mesh& mesh, const draco::PointAttribute& attrib
     return out;
 }
 
-void read_triangles(const draco::Mesh& mesh, DracoPrimitive& out, const std::string& where) {
+void read_triangles(const draco::Mesh& mesh, DracoPrimitive& out, const Pointer& where) {
     out.triangles.reserve(3 * size_t{mesh.num_faces()});
     for (draco::FaceIndex face(0); face < mesh.num_faces(); ++face)
         for (const draco::PointIndex& point : mesh.face(face)) {
@@ -85,23 +94,21 @@ void read_triangles(const draco::Mesh& mesh, DracoPrimitive& out, const std::str
 }  // namespace
 
 DracoPrimitive decode_draco(const Parsed& parsed, const Json& primitive, uint64_t triangle_limit,
-                            const std::string& primitive_where) {
+                            const Pointer& primitive_where) {
     const Json& json = *extension(primitive, "KHR_draco_mesh_compression");
-    const std::string where = primitive_where + "/extensions/KHR_draco_mesh_compression";
+    const Pointer where = primitive_where / "extensions" / "KHR_draco_mesh_compression";
     demand(unsigned_at(primitive, "mode", 4) >= 4, where, "is on a primitive of points or lines");
-    if (const auto indices = index_at(primitive, "indices"))
-        require(parsed.accessors[*indices].count / 3 <= triangle_limit, ErrorCode::asset_too_large, where,
-                "{} has more triangles than are read (limit triangles)", where);
-    const auto mesh = decode_mesh(parsed.views[*index_at(json, "bufferView")], where);
+    const ByteView stream = parsed.views[*index_at(json, "bufferView")];
+    const auto any_attribute = primitive["attributes"].begin()->get<uint32_t>();
+    check_sizes(stream, parsed.accessors[any_attribute].count, triangle_limit, where);
+    const auto mesh = decode_mesh(stream, where);
     DracoPrimitive out;
     out.vertex_count = mesh->num_points();
-    require(mesh->num_faces() <= triangle_limit, ErrorCode::asset_too_large, where,
-            "{} has more triangles than are read (limit triangles)", where);
     read_triangles(*mesh, out, where);
-    const Json& attributes = json["attributes"];
+    const auto& attributes = json["attributes"].get_ref<const Json::object_t&>();
     out.owned.reserve(attributes.size());
-    for (const auto& [name, id] : attributes.items()) {
-        const std::string at = where + "/attributes/" + name;
+    for (const auto& [name, id] : attributes) {
+        const Pointer at = where / "attributes" / name;
         demand(primitive["attributes"].contains(name), at, "is not among the attributes of the primitive");
         const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(id.get<uint32_t>());
         demand(attribute != nullptr, at, "is {}, which the Draco stream does not have", id.get<uint32_t>());

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <map>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/format/gltf/parsed.h"
@@ -11,13 +11,14 @@ namespace coppice::gltf {
 
 struct DracoPrimitive {
     uint64_t vertex_count = 0;
-    std::vector<uint32_t> triangles;             // 3 vertices each, in range
-    std::map<std::string, Accessor> attributes;  // windows into owned; only those that the bitstream holds
+    std::vector<uint32_t> triangles;  // 3 vertices each, in range
+    std::map<std::string_view, Accessor>
+        attributes;  // windows into owned; only those that the bitstream holds
     std::vector<Bytes> owned;
 };
 
 // primitive: has the extension. Throws asset_malformed, asset_too_large.
 DracoPrimitive decode_draco(const Parsed& parsed, const Json& primitive, uint64_t triangle_limit,
-                            const std::string& where);
+                            const Pointer& where);
 
 }  // namespace coppice::gltf

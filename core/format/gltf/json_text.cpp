@@ -1,7 +1,6 @@
 #include "core/format/gltf/json_text.h"
 
 #include <algorithm>
-#include <set>
 #include <vector>
 
 #include "core/base/error.h"
@@ -17,16 +16,8 @@ std::string line_and_column(std::string_view text, size_t offset) {
     return fmt::format("line {} column {}", line, before.size() - line_begin + 1);
 }
 
-// "... number overflow parsing '1e999'" -> 1e999: the parser gives no position, but the number as it was
-// written.
-std::string quoted(std::string_view message) {
-    const size_t begin = std::min(message.find('\''), message.size() - 1) + 1;
-    return std::string(message.substr(begin, message.rfind('\'') - begin));
-}
-
-// The nesting depth is counted before parsing: the parser itself is iterative, but whoever copies or prints
-// the tree later recurses.
-void check_depth(std::string_view text, uint32_t limit) {
+// Where the nesting first goes deeper than the limit.
+size_t first_deeper_than(std::string_view text, uint32_t limit) {
     uint32_t depth = 0;
     bool in_string = false;
     for (size_t i = 0; i < text.size(); ++i) {
@@ -37,75 +28,111 @@ void check_depth(std::string_view text, uint32_t limit) {
         } else if (c == '"') {
             in_string = true;
         } else if (c == '{' || c == '[') {
-            // Not require(): counting lines for each bracket would take quadratic time.
-            if (++depth <= limit) continue;
-            fail(ErrorCode::asset_malformed, line_and_column(text, i),
-                 fmt::format("the JSON is nested deeper than {} levels (limit json_depth)", limit));
-        } else if ((c == '}' || c == ']') && depth > 0) {
+            if (++depth > limit) return i;
+        } else if (c == '}' || c == ']') {
             --depth;
         }
     }
+    return text.size();
 }
 
-// Refuses the second key of a name in one object. A pass of its own: a callback of Json::parse would look at
-// all children of an object or array for each that ends, which is quadratic.
-class DuplicateKeys : public nlohmann::json_sax<Json> {
+// Builds the tree as the parser goes. Json::parse would take the last of two equal keys, knows no depth that
+// is too deep (it is iterative itself, but whoever copies or prints the tree later recurses) and cannot be
+// stopped.
+class TreeBuilder : public nlohmann::json_sax<Json> {
   public:
-    bool null() override { return true; }
-    bool boolean(bool) override { return true; }
-    bool number_integer(Json::number_integer_t) override { return true; }
-    bool number_unsigned(Json::number_unsigned_t) override { return true; }
-    bool number_float(Json::number_float_t, const std::string&) override { return true; }
-    bool string(std::string&) override { return true; }
-    bool binary(Json::binary_t&) override { return true; }
-    bool start_array(size_t) override { return true; }
-    bool end_array() override { return true; }
-    bool parse_error(size_t, const std::string&, const nlohmann::detail::exception&) override {
-        return false;  // Json::parse says it
-    }
-    bool start_object(size_t) override {
-        keys_.emplace_back();
-        return true;
-    }
-    bool end_object() override {
-        keys_.pop_back();
-        return true;
-    }
+    TreeBuilder(std::string_view text, const ReadLimits& limits, const Watch& watch)
+        : text_(text), limits_(limits), watch_(watch) {}
+
+    bool null() override { return add(nullptr); }
+    bool boolean(bool value) override { return add(value); }
+    bool number_integer(Json::number_integer_t value) override { return add(value); }
+    bool number_unsigned(Json::number_unsigned_t value) override { return add(value); }
+    bool number_float(Json::number_float_t value, const std::string&) override { return add(value); }
+    bool string(std::string& value) override { return add(std::move(value)); }
+    bool binary(Json::binary_t&) override { return false; }  // no such thing in text
+    bool start_object(size_t) override { return open(Json::object()); }
+    bool end_object() override { return close(); }
+    bool start_array(size_t) override { return open(Json::array()); }
+    bool end_array() override { return close(); }
+
     bool key(std::string& name) override {
-        require(keys_.back().insert(name).second, ErrorCode::asset_malformed, "",
-                "the JSON has the key '{}' twice in one object", name.substr(0, 100));
+        auto& object = open_.back()->get_ref<Json::object_t&>();
+        const auto [member, is_new] = object.try_emplace(std::move(name));
+        require(is_new, ErrorCode::asset_malformed, "", "the JSON has the key '{}' twice in one object",
+                member->first.substr(0, 100));
+        member_ = &member->second;
         return true;
     }
 
+    bool parse_error(size_t position, const std::string& token,
+                     const nlohmann::detail::exception& error) override {
+        constexpr int number_overflow = 406;
+        if (error.id == number_overflow)
+            fail(ErrorCode::asset_malformed, line_and_column(text_, position - token.size()),
+                 fmt::format("the JSON holds the number {}, which is out of range", token.substr(0, 60)));
+        const std::string_view message = error.what();
+        const size_t reason = std::min(message.rfind("; expected"), message.size());
+        fail(ErrorCode::asset_malformed, line_and_column(text_, position == 0 ? 0 : position - 1),
+             fmt::format("the JSON cannot be parsed{}", message.substr(reason)));
+    }
+
+    Json tree() { return std::move(root_); }
+
   private:
-    std::vector<std::set<std::string>> keys_;
+    template <typename Value>
+    Json& place(Value&& value) {
+        watch_.check();
+        require(++values_ <= limits_.json_values, ErrorCode::asset_too_large, "",
+                "the JSON has more than {} values (limit json_values)", limits_.json_values);
+        if (open_.empty()) return root_ = std::forward<Value>(value);
+        if (!open_.back()->is_array()) return *member_ = std::forward<Value>(value);
+        auto& array = open_.back()->get_ref<Json::array_t&>();
+        if (array.empty()) array.reserve(4);  // most are vectors and quaternions
+        return array.emplace_back(std::forward<Value>(value));
+    }
+
+    template <typename Value>
+    bool add(Value&& value) {
+        place(std::forward<Value>(value));
+        return true;
+    }
+
+    bool open(Json container) {
+        if (open_.size() == limits_.json_depth)
+            fail(ErrorCode::asset_malformed,
+                 line_and_column(text_, first_deeper_than(text_, limits_.json_depth)),
+                 fmt::format("the JSON is nested deeper than {} levels (limit json_depth)",
+                             limits_.json_depth));
+        open_.push_back(&place(std::move(container)));
+        return true;
+    }
+
+    bool close() {
+        open_.pop_back();
+        return true;
+    }
+
+    std::string_view text_;
+    const ReadLimits& limits_;
+    const Watch& watch_;
+    uint64_t values_ = 0;
+    Json root_;
+    std::vector<Json*> open_;  // stays valid: what is around an open container gets no further elements
+    Json* member_ = nullptr;   // of the innermost object: the one whose key was read last
 };
 
 }  // namespace
 
-Json parse_json(ByteView bytes, const ReadLimits& limits) {
+Json parse_json(ByteView bytes, const ReadLimits& limits, const Watch& watch) {
     const std::string_view text = as_text(bytes);
     require(text.size() <= limits.json_bytes, ErrorCode::asset_too_large, "",
             "the JSON has {} bytes; at most {} are read (limit json_bytes)", text.size(), limits.json_bytes);
     require(!text.starts_with("\xEF\xBB\xBF"), ErrorCode::asset_malformed, "line 1 column 1",
             "the JSON begins with a byte order mark, which glTF forbids");
-    check_depth(text, limits.json_depth);
-    try {
-        DuplicateKeys duplicates;
-        Json::sax_parse(text.begin(), text.end(), &duplicates);
-        return Json::parse(text.begin(), text.end());
-    } catch (const Json::parse_error& error) {
-        const std::string_view message = error.what();
-        const size_t colon = message.rfind("; expected");
-        fail(ErrorCode::asset_malformed, line_and_column(text, error.byte == 0 ? 0 : error.byte - 1),
-             fmt::format("the JSON cannot be parsed{}", colon == std::string_view::npos
-                                                            ? std::string()
-                                                            : std::string(message.substr(colon))));
-    } catch (const Json::exception& error) {
-        const std::string number = quoted(error.what());
-        fail(ErrorCode::asset_malformed, line_and_column(text, text.find(number)),
-             fmt::format("the JSON holds the number {}, which is out of range", number.substr(0, 60)));
-    }
+    TreeBuilder builder(text, limits, watch);
+    Json::sax_parse(text.begin(), text.end(), &builder);
+    return builder.tree();
 }
 
 std::string print_json(const Json& json) {

@@ -14,7 +14,7 @@ struct Stream {
 };
 
 // The extension's own table of what goes with what.
-void check(const Stream& stream, uint64_t length, const std::string& where) {
+void check(const Stream& stream, uint64_t length, const Pointer& where) {
     const bool is_attributes = stream.mode == "ATTRIBUTES";
     demand(stream.count <= length && stream.count * stream.stride == length, where,
            "has {} elements of {} bytes, but the buffer view has {} bytes", stream.count, stream.stride,
@@ -54,8 +54,8 @@ void apply_filter(const Stream& stream, Bytes& out) {
 
 }  // namespace
 
-Bytes decode_meshopt(const Parsed& parsed, const Json& extension, uint64_t length, const std::string& view) {
-    const std::string where = view + "/extensions/EXT_meshopt_compression";
+Bytes decode_meshopt(const Parsed& parsed, const Json& extension, uint64_t length, const Pointer& view) {
+    const Pointer where = view / "extensions" / "EXT_meshopt_compression";
     const uint32_t buffer = *index_at(extension, "buffer");
     const uint64_t offset = unsigned_at(extension, "byteOffset");
     const uint64_t size = unsigned_at(extension, "byteLength");

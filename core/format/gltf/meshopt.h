@@ -6,6 +6,6 @@
 namespace coppice::gltf {
 
 // The decompressed bytes of a buffer view of `length` bytes. Throws asset_malformed.
-Bytes decode_meshopt(const Parsed& parsed, const Json& extension, uint64_t length, const std::string& where);
+Bytes decode_meshopt(const Parsed& parsed, const Json& extension, uint64_t length, const Pointer& where);
 
 }  // namespace coppice::gltf

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/format/gltf/accessor.h"
 #include "core/format/gltf/json_text.h"
+#include "core/format/gltf/pointer.h"
 #include "core/scene/scene.h"
 
 namespace coppice::gltf {
@@ -52,8 +53,8 @@ struct Parsed {
     std::vector<Image> images;
     std::vector<Warning> warnings;
 
-    void warn(std::string code, std::string message, std::string where = {}) {
-        warnings.push_back({std::move(code), std::move(message), std::move(where)});
+    void warn(std::string code, std::string message, const Pointer& where = {}) {
+        warnings.push_back({std::move(code), std::move(message), where.text()});
     }
 };
 
@@ -68,19 +69,24 @@ uint64_t unsigned_at(const Json& object, std::string_view key, uint64_t otherwis
 double number_at(const Json& object, std::string_view key, double otherwise = 0);
 std::string text_at(const Json& object, std::string_view key);
 
-// "/meshes/3", then "/meshes/3/primitives/0".
-template <typename... Parts>
-std::string pointer(const Parts&... parts) {
-    std::string out;
-    ((out += fmt::format("/{}", parts)), ...);
-    return out;
+// As coppice::require, for places in the document.
+template <typename... Args>
+void require(bool condition, ErrorCode code, const Pointer& where, fmt::format_string<Args...> message,
+             Args&&... args) {
+    if (!condition) fail(code, where.text(), fmt::format(message, std::forward<Args>(args)...));
+}
+
+// What is there is wrong: the message goes on after the place.
+template <typename... Args>
+[[noreturn]] void refuse(const Pointer& where, fmt::format_string<Args...> message, Args&&... args) {
+    fail(ErrorCode::asset_malformed, where.text(),
+         fmt::format("{} {}", where.is_root() ? "the document" : where.text(),
+                     fmt::format(message, std::forward<Args>(args)...)));
 }
 
 template <typename... Args>
-void demand(bool condition, const std::string& where, fmt::format_string<Args...> message, Args&&... args) {
-    if (!condition)
-        fail(ErrorCode::asset_malformed, where,
-             fmt::format("{} {}", where, fmt::format(message, std::forward<Args>(args)...)));
+void demand(bool condition, const Pointer& where, fmt::format_string<Args...> message, Args&&... args) {
+    if (!condition) refuse(where, message, std::forward<Args>(args)...);
 }
 
 }  // namespace coppice::gltf

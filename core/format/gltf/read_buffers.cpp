@@ -4,6 +4,7 @@
 
 #include "core/format/gltf/checks.h"
 #include "core/format/gltf/data_uri.h"
+#include "core/format/gltf/described.h"
 #include "core/format/gltf/meshopt.h"
 
 namespace coppice::gltf {
@@ -17,36 +18,22 @@ bool is_meshopt_fallback(const Json& buffer) {
 }
 
 ByteView buffer_bytes(Parsed& parsed, size_t index, const Json& buffer, const Resources& resources) {
-    const std::string where = pointer("buffers", index);
     if (!buffer.contains("uri")) return *parsed.binary;
     const auto& uri = buffer.at("uri").get_ref<const std::string&>();
-    auto data = parse_data_uri(uri, where + "/uri");
-    if (!data) return resources.find(uri, where + "/uri");
+    const Pointer where = pointer("buffers", index, "uri");
+    auto data = parse_data_uri(uri, where.text());
+    if (!data) return resources.find(uri, where.text());
     demand(data->media_type == "application/octet-stream" || data->media_type == "application/gltf-buffer",
-           where + "/uri",
+           where,
            "is a data URI of type '{}'; it must be application/octet-stream or application/gltf-buffer",
            data->media_type.substr(0, 60));
     parsed.owned.push_back(std::move(data->bytes));
     return parsed.owned.back();
 }
 
-struct Shape {
-    uint32_t rows, columns;
-};
-
-Shape shape_of(std::string_view type) {
-    if (type == "VEC2") return {2, 1};
-    if (type == "VEC3") return {3, 1};
-    if (type == "VEC4") return {4, 1};
-    if (type == "MAT2") return {2, 2};
-    if (type == "MAT3") return {3, 3};
-    if (type == "MAT4") return {4, 4};
-    return {1, 1};
-}
-
 // A part of a view: offset inside it, aligned to its components.
 void check_alignment(const Parsed& parsed, uint32_t view, uint64_t offset, ComponentType type,
-                     const std::string& where) {
+                     const Pointer& where) {
     const uint32_t size = size_of(type);
     demand(offset % size == 0, where, "has byteOffset {}, which is not a multiple of its component size {}",
            offset, size);
@@ -55,7 +42,7 @@ void check_alignment(const Parsed& parsed, uint32_t view, uint64_t offset, Compo
            "begins at byte {} of its buffer, which is not a multiple of its component size {}", total, size);
 }
 
-void read_base(const Parsed& parsed, const Json& json, Accessor& accessor, const std::string& where) {
+void read_base(const Parsed& parsed, const Json& json, Accessor& accessor, const Pointer& where) {
     const auto view = index_at(json, "bufferView");
     const uint64_t offset = unsigned_at(json, "byteOffset");
     if (!view) return demand(!json.contains("byteOffset"), where, "has a byteOffset, but no bufferView");
@@ -77,7 +64,7 @@ void read_base(const Parsed& parsed, const Json& json, Accessor& accessor, const
 }
 
 ByteView sparse_part(Parsed& parsed, const Json& part, uint64_t count, uint64_t element_size,
-                     ComponentType type, const std::string& where) {
+                     ComponentType type, const Pointer& where) {
     const uint32_t view = *index_at(part, "bufferView");
     const uint64_t offset = unsigned_at(part, "byteOffset");
     demand(!parsed.json["bufferViews"][view].contains("byteStride"), where,
@@ -90,32 +77,26 @@ ByteView sparse_part(Parsed& parsed, const Json& part, uint64_t count, uint64_t 
     return parsed.views[view].subspan(offset, count * element_size);
 }
 
-void read_sparse(Parsed& parsed, const Json& json, Accessor& accessor, const std::string& where) {
+void read_sparse(Parsed& parsed, const Json& json, Accessor& accessor, const Pointer& where) {
     const auto found = json.find("sparse");
     if (found == json.end()) return;
     const uint64_t count = unsigned_at(*found, "count");
-    demand(count <= accessor.count, where + "/sparse/count", "is {}, but the accessor has {} elements", count,
-           accessor.count);
+    demand(count <= accessor.count, where / "sparse" / "count", "is {}, but the accessor has {} elements",
+           count, accessor.count);
     const auto type = static_cast<ComponentType>(unsigned_at((*found)["indices"], "componentType"));
     accessor.sparse.count = count;
     accessor.sparse.indices = {type, sparse_part(parsed, (*found)["indices"], count, size_of(type), type,
-                                                 where + "/sparse/indices")};
+                                                 where / "sparse" / "indices")};
     accessor.sparse.values = sparse_part(parsed, (*found)["values"], count, accessor.tight_stride(),
-                                         accessor.storage.type, where + "/sparse/values");
+                                         accessor.storage.type, where / "sparse" / "values");
 }
 
-Accessor read_accessor(Parsed& parsed, const Json& json, const std::string& where) {
-    Accessor accessor;
-    const Shape shape = shape_of(json.at("type").get_ref<const std::string&>());
-    accessor.rows = shape.rows;
-    accessor.columns = shape.columns;
-    accessor.count = unsigned_at(json, "count");
-    accessor.storage = {static_cast<ComponentType>(unsigned_at(json, "componentType")),
-                        json.value("normalized", false)};
-    demand(!accessor.storage.normalized || size_of(accessor.storage.type) < 4, where + "/normalized",
+Accessor read_accessor(Parsed& parsed, const Json& json, const Pointer& where) {
+    Accessor accessor = described(json);
+    demand(!accessor.storage.normalized || size_of(accessor.storage.type) < 4, where / "normalized",
            "is true, but only 8 and 16 bit integers can be normalized");
     for (const char* bound : {"min", "max"})
-        demand(!json.contains(bound) || json[bound].size() == accessor.components(), where + "/" + bound,
+        demand(!json.contains(bound) || json[bound].size() == accessor.components(), where / "" / bound,
                "has {} numbers; elements of this accessor have {}", list(json, bound).size(),
                accessor.components());
     read_base(parsed, json, accessor, where);
@@ -125,10 +106,11 @@ Accessor read_accessor(Parsed& parsed, const Json& json, const std::string& wher
 
 }  // namespace
 
-void read_buffers(Parsed& parsed, const Resources& resources) {
+void read_buffers(Parsed& parsed, const Resources& resources, const Watch& watch) {
     const Json& buffers = list(parsed.json, "buffers");
     parsed.owned.reserve(buffers.size() + list(parsed.json, "bufferViews").size());
     for (size_t i = 0; i < buffers.size(); ++i) {
+        watch.check();
         // Without a uri it is the BIN chunk, or a placeholder that nothing may read. In a GLB buffer 0 can
         // only be the former, unless it is the space that decompressed views would take.
         const bool is_binary = i == 0 && parsed.binary.has_value();
@@ -146,18 +128,19 @@ void read_buffers(Parsed& parsed, const Resources& resources) {
     }
 }
 
-void read_views(Parsed& parsed, const ReadLimits& limits) {
+void read_views(Parsed& parsed, const ReadLimits& limits, const Watch& watch) {
     const Json& views = list(parsed.json, "bufferViews");
     uint64_t decompressed = 0;
     for (size_t i = 0; i < views.size(); ++i) {
-        const std::string where = pointer("bufferViews", i);
+        watch.check();
+        const Pointer where = pointer("bufferViews", i);
         const uint64_t offset = unsigned_at(views[i], "byteOffset");
         const uint64_t length = unsigned_at(views[i], "byteLength");
         const uint64_t stride = unsigned_at(views[i], "byteStride");
-        demand(stride % 4 == 0, where + "/byteStride", "is {}, which is not a multiple of 4", stride);
-        demand(stride <= length, where + "/byteStride", "is {}, but the buffer view has only {} bytes",
-               stride, length);
-        demand(stride == 0 || unsigned_at(views[i], "target", 34962) == 34962, where + "/byteStride",
+        demand(stride % 4 == 0, where / "byteStride", "is {}, which is not a multiple of 4", stride);
+        demand(stride <= length, where / "byteStride", "is {}, but the buffer view has only {} bytes", stride,
+               length);
+        demand(stride == 0 || unsigned_at(views[i], "target", 34962) == 34962, where / "byteStride",
                "is only for vertex attributes, but the target is {}", unsigned_at(views[i], "target"));
         const uint32_t buffer = *index_at(views[i], "buffer");
         const uint64_t buffer_length = unsigned_at(parsed.json["buffers"][buffer], "byteLength");
@@ -185,13 +168,11 @@ void read_views(Parsed& parsed, const ReadLimits& limits) {
     }
 }
 
-void read_accessors(Parsed& parsed, const ReadLimits& limits) {
+void read_accessors(Parsed& parsed, const ReadLimits& limits, const Watch& watch) {
     const Json& accessors = list(parsed.json, "accessors");
-    require(accessors.size() <= limits.accessors, ErrorCode::asset_too_large, "/accessors",
-            "there are {} accessors; at most {} are read (limit accessors)", accessors.size(),
-            limits.accessors);
     uint64_t without_bytes = 0;
     for (size_t i = 0; i < accessors.size(); ++i) {
+        watch.check();
         parsed.accessors.push_back(read_accessor(parsed, accessors[i], pointer("accessors", i)));
         const Accessor& accessor = parsed.accessors.back();
         if (accessor.bytes.empty()) without_bytes += std::min(accessor.count, limits.vertices + 1);

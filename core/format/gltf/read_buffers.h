@@ -10,9 +10,9 @@ namespace coppice::gltf {
 
 // Fills buffers, views and accessors. Throws asset_malformed, asset_too_large, resource_missing,
 // resource_forbidden.
-void read_buffers(Parsed& parsed, const Resources& resources);
-void read_views(Parsed& parsed, const ReadLimits& limits);  // decompresses meshopt
-void read_accessors(Parsed& parsed, const ReadLimits& limits);
+void read_buffers(Parsed& parsed, const Resources& resources, const Watch& watch);
+void read_views(Parsed& parsed, const ReadLimits& limits, const Watch& watch);  // decompresses meshopt
+void read_accessors(Parsed& parsed, const ReadLimits& limits, const Watch& watch);
 
 // What reads the values: sparse indices increase and stay inside, floats are finite (or listed for repair),
 // declared min and max are the actual ones (or repaired, with a warning). Needs usages and repairs.

@@ -76,9 +76,22 @@ Bytes packed(const Accessor& accessor, const ValueRepair& repair) {
     return out;
 }
 
+// Views may share their bytes, and each gets a copy.
+void keep_view(const Parsed& parsed, uint32_t index, const ReadLimits& limits, GltfDocument& document) {
+    const ByteView bytes = parsed.views[index];
+    const auto [at, is_new] = document.buffer_views.try_emplace(index);
+    if (!is_new) return;
+    document.view_bytes += bytes.size();
+    require(document.view_bytes <= limits.zip_bytes, ErrorCode::asset_too_large,
+            pointer("bufferViews", index),
+            "the buffer views that extensions refer to have more than {} bytes (limit zip_bytes)",
+            limits.zip_bytes);
+    at->second.assign(bytes.begin(), bytes.end());
+}
+
 }  // namespace
 
-std::shared_ptr<GltfDocument> make_document(Parsed& parsed) {
+std::shared_ptr<GltfDocument> make_document(Parsed& parsed, const ReadLimits& limits) {
     auto document = std::make_shared<GltfDocument>();
     document->keeps_indices = !extensions_with_unknown_indices(parsed.json).empty();
     for (const uint32_t index : passed_through(parsed.json)) {
@@ -88,15 +101,18 @@ std::shared_ptr<GltfDocument> make_document(Parsed& parsed) {
         document->accessors.emplace(index, packed(accessor, parsed.repairs[index]));
         if (parsed.repairs[index].any()) document->repaired.insert(index);
     }
-    for_each_metadata_view(parsed.json, [&](uint32_t view, const std::string& where) {
+    for_each_metadata_view(parsed.json, [&](uint32_t view, const Pointer& where) {
         demand(!parsed.views[view].empty(), where, "refers to buffer view {}, which has no bytes", view);
-        document->buffer_views.emplace(view, Bytes(parsed.views[view].begin(), parsed.views[view].end()));
+        keep_view(parsed, view, limits, *document);
         return view;
     });
     if (document->keeps_indices)
-        for (uint32_t i = 0; i < parsed.views.size(); ++i)
-            document->buffer_views.emplace(i, Bytes(parsed.views[i].begin(), parsed.views[i].end()));
+        for (uint32_t i = 0; i < parsed.views.size(); ++i) keep_view(parsed, i, limits, *document);
     document->json = std::move(parsed.json);
+    // Their bytes are elsewhere by now, and as data URIs they may be all of the document.
+    document->json.erase("buffers");
+    if (document->json.contains("images"))
+        for (Json& image : document->json["images"]) image.erase("uri");
     return document;
 }
 

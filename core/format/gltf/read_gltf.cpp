@@ -14,7 +14,7 @@ namespace gltf {
 
 namespace {
 
-Parsed parse(ByteView bytes, const ReadLimits& limits) {
+Parsed parse(ByteView bytes, const ReadLimits& limits, const Watch& watch) {
     Parsed parsed;
     ByteView text = bytes;
     if (is_glb(bytes)) {
@@ -23,26 +23,27 @@ Parsed parse(ByteView bytes, const ReadLimits& limits) {
         text = chunks.json;
         parsed.binary = chunks.binary;
     }
-    parsed.json = parse_json(text, limits);
+    parsed.json = parse_json(text, limits, watch);
     return parsed;
 }
 
-void check_structure(Parsed& parsed, const ReadLimits& limits) {
+void check_structure(Parsed& parsed, const ReadLimits& limits, const Watch& watch) {
     check_asset(parsed.json);
-    check_schema(parsed.json);
     check_counts(parsed.json, limits);
-    check_extensions(parsed);
-    check_nodes(parsed, limits);
+    check_schema(parsed.json, watch);
+    check_claims(parsed.json, limits, watch);
+    check_extensions(parsed, watch);
+    check_nodes(parsed, limits, watch);
 }
 
-void check_use(Parsed& parsed, const Watch& watch) {
-    check_meshes(parsed);
-    check_skins(parsed);
-    check_animations(parsed);
-    check_instancing(parsed);
-    check_materials(parsed);
+void check_use(Parsed& parsed, const ReadLimits& limits, const Watch& watch) {
+    check_meshes(parsed, watch);
+    check_skins(parsed, limits, watch);
+    check_animations(parsed, watch);
+    check_instancing(parsed, watch);
+    check_materials(parsed, watch);
     check_cameras_and_lights(parsed);
-    check_vertex_data(parsed, watch);
+    check_vertex_data(parsed, limits, watch);
     check_accessor_data(parsed, watch);
 }
 
@@ -88,23 +89,22 @@ std::vector<Mesh> read_meshes(Parsed& parsed, const ReadLimits& limits, const Wa
 
 Scene read_gltf(ByteView bytes, const Resources& resources, const ReadLimits& limits, const Watch& watch) {
     using namespace gltf;
-    Parsed parsed = parse(bytes, limits);
-    check_structure(parsed, limits);
-    read_buffers(parsed, resources);
-    read_views(parsed, limits);
-    read_accessors(parsed, limits);
+    Parsed parsed = parse(bytes, limits, watch);
+    check_structure(parsed, limits, watch);
+    read_buffers(parsed, resources, watch);
+    read_views(parsed, limits, watch);
+    read_accessors(parsed, limits, watch);
     read_images(parsed, resources, limits);
-    check_use(parsed, watch);
+    check_use(parsed, limits, watch);
 
     Scene scene;
     scene.meshes = read_meshes(parsed, limits, watch);
     check_rendered(parsed, scene.meshes, limits);
-    const tinygltf::Model model = parse_model(parsed.json);
-    scene.nodes = read_nodes(parsed, model);
-    scene.roots = read_roots(scene.nodes, model);
-    scene.materials = read_materials(parsed, model);
+    scene.nodes = read_nodes(parsed);
+    scene.roots = read_roots(parsed.json, scene.nodes);
+    scene.materials = read_materials(parsed.json);
     scene.images = std::move(parsed.images);
-    auto document = make_document(parsed);
+    auto document = make_document(parsed, limits);
     document->nodes = scene.nodes;
     scene.source = std::move(document);
     scene.warnings = std::move(parsed.warnings);

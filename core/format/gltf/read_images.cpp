@@ -10,30 +10,30 @@ namespace {
 
 Image image_from_uri(const std::string& uri, const Resources& resources, const std::string& where) {
     Image image;
-    if (auto data = parse_data_uri(uri, where + "/uri")) {
+    if (auto data = parse_data_uri(uri, where)) {
         image.bytes = std::move(data->bytes);
         image.mime_type = std::move(data->media_type);
         return image;
     }
-    const ByteView bytes = resources.find(uri, where + "/uri");
+    const ByteView bytes = resources.find(uri, where);
     image.bytes.assign(bytes.begin(), bytes.end());
-    image.path = percent_decoded(uri, where + "/uri");
+    image.path = percent_decoded(uri, where);
     return image;
 }
 
-Image read_image(Parsed& parsed, const Json& json, const Resources& resources, const std::string& where) {
+Image read_image(Parsed& parsed, const Json& json, const Resources& resources, const Pointer& where) {
     const auto view = index_at(json, "bufferView");
     demand(view.has_value() != json.contains("uri"), where, "must have exactly one of uri and bufferView");
     Image image;
     if (view) {
         demand(json.contains("mimeType"), where, "has a bufferView, so it must have a mimeType");
-        demand(!parsed.json["bufferViews"][*view].contains("byteStride"), where + "/bufferView",
+        demand(!parsed.json["bufferViews"][*view].contains("byteStride"), where / "bufferView",
                "is {}, which has a byteStride; only vertex attributes may", *view);
-        set_view_usage(parsed, *view, ViewUsage::image, where + "/bufferView");
+        set_view_usage(parsed, *view, ViewUsage::image, where / "bufferView");
         demand(!parsed.views[*view].empty(), where, "reads buffer view {}, whose buffer has no bytes", *view);
         image.bytes.assign(parsed.views[*view].begin(), parsed.views[*view].end());
     } else {
-        image = image_from_uri(text_at(json, "uri"), resources, where);
+        image = image_from_uri(text_at(json, "uri"), resources, (where / "uri").text());
     }
     image.name = text_at(json, "name");
     const std::string_view actual = image_mime_type(image.bytes);
@@ -43,7 +43,7 @@ Image read_image(Parsed& parsed, const Json& json, const Resources& resources, c
         demand(type.empty() || actual.empty() || type == actual, where, "is declared to be {}, but is {}",
                type.substr(0, 60), actual);
     image.mime_type = !actual.empty() ? std::string(actual) : !declared.empty() ? declared : in_uri;
-    check_image_header(image.bytes, where);
+    check_image_header(image.bytes, where.text());
     return image;
 }
 

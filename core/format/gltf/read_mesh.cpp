@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/format/gltf/legal_values.h"
 #include "core/format/gltf/read_primitive.h"
@@ -27,6 +28,22 @@ Layout joined(const Layout& a, const Accessor& b, Semantic semantic) {
     return both;
 }
 
+using Layouts = std::map<std::string_view, Layout>;  // by the attribute's name
+
+void join(Layouts& layouts, const NamedAccessors& accessors) {
+    for (const auto& [name, accessor] : accessors) {
+        Layout& layout = layouts[name];
+        layout = joined(layout, *accessor, parse_attribute_name(name).semantic);
+    }
+}
+
+std::vector<Attribute> attributes_of(const Layouts& layouts) {
+    std::vector<Attribute> out;
+    for (const auto& [name, layout] : layouts)
+        out.push_back({std::string(name), layout.components, layout.storage});
+    return out;
+}
+
 class MeshReader {
   public:
     MeshReader(Parsed& parsed, uint32_t index, const ReadLimits& limits, MeshBudget& budget,
@@ -43,6 +60,7 @@ class MeshReader {
             if (is_triangles(primitives[p])) add_slot(primitives[p], p);
         }
         lay_out();
+        make_room();
         for (size_t s = 0; s < data_.size(); ++s) {
             watch_.check();
             fill(s);
@@ -53,66 +71,77 @@ class MeshReader {
 
   private:
     void add_slot(const Json& primitive, uint32_t p) {
-        const std::string where = pointer("meshes", index_, "primitives", p);
+        const Pointer where = pointer("meshes", index_, "primitives", p);
         data_.push_back(read_primitive(parsed_, primitive, limits_.triangles - budget_.triangles, where));
         budget_.triangles += data_.back().triangles.size() / 3;
         require(budget_.triangles <= limits_.triangles, ErrorCode::asset_too_large, where,
                 "the meshes have more than {} triangles (limit triangles)", limits_.triangles);
+        used_.push_back(take_used(data_.back()));
+        budget_.vertices += used_.back().size();
+        require(budget_.vertices <= limits_.vertices, ErrorCode::asset_too_large, where,
+                "the meshes have more than {} vertices (limit vertices)", limits_.vertices);
         MaterialSlot slot;
         slot.material = index_at(primitive, "material");
         slot.source_primitive = p;
         mesh_.slots.push_back(slot);
     }
 
-    // The attributes and morph deltas of all slots together.
-    void lay_out() {
-        std::map<std::string, Layout> attributes;
-        size_t targets = 0;
-        for (const PrimitiveData& data : data_) {
-            targets = std::max(targets, data.targets.size());
-            for (const auto& [name, accessor] : data.attributes)
-                attributes[name] = joined(attributes[name], accessor, parse_attribute_name(name).semantic);
-        }
-        for (const auto& [name, layout] : attributes) {
-            if (name == "POSITION")
-                mesh_.position_storage = layout.storage;
-            else
-                mesh_.attributes.push_back({name, layout.components, layout.storage});
-        }
-        mesh_.morph_targets.resize(targets);
-        for (size_t t = 0; t < targets; ++t) {
-            std::map<std::string, Layout> deltas;
-            for (const PrimitiveData& data : data_)
-                for (const auto& [name, accessor] : data.targets[t])
-                    deltas[name] = joined(deltas[name], accessor, parse_attribute_name(name).semantic);
-            for (const auto& [name, layout] : deltas)
-                mesh_.morph_targets[t].deltas.push_back({name, layout.components, layout.storage});
-        }
-        for (size_t s = 0; s < data_.size(); ++s)
-            for (const Attribute& attribute : mesh_.attributes)
-                mesh_.slots[s].has_attribute.push_back(data_[s].attributes.contains(attribute.name));
-    }
-
     // The vertices that triangles use, ascending, and the triangles in terms of them.
-    std::vector<uint32_t> take_used(PrimitiveData& data) const {
+    static std::vector<uint32_t> take_used(PrimitiveData& data) {
         std::vector<uint32_t> used = data.triangles;
         std::sort(used.begin(), used.end());
         used.erase(std::unique(used.begin(), used.end()), used.end());
+        used.shrink_to_fit();
         for (uint32_t& corner : data.triangles)
             corner = static_cast<uint32_t>(std::lower_bound(used.begin(), used.end(), corner) - used.begin());
         return used;
     }
 
+    // The attributes and morph deltas of all slots together.
+    void lay_out() {
+        Layouts attributes;
+        std::vector<Layouts> targets;
+        Layout positions;
+        for (const PrimitiveData& data : data_) {
+            positions = joined(positions, *data.positions, Semantic::position);
+            join(attributes, data.attributes);
+            targets.resize(std::max(targets.size(), data.targets.size()));
+            for (size_t t = 0; t < data.targets.size(); ++t) join(targets[t], data.targets[t]);
+        }
+        mesh_.position_storage = positions.storage;
+        mesh_.attributes = attributes_of(attributes);
+        for (const Layouts& deltas : targets) mesh_.morph_targets.push_back({attributes_of(deltas)});
+        for (MaterialSlot& slot : mesh_.slots) slot.has_attribute.resize(mesh_.attributes.size());
+    }
+
+    // All vertices get all attributes, which is little for each and may be much for all.
+    void make_room() {
+        uint64_t wedges = 0;
+        for (const std::vector<uint32_t>& used : used_) wedges += used.size();
+        uint64_t components = 0;
+        const auto for_each_stream = [&](const auto& visit) {
+            for (Attribute& attribute : mesh_.attributes) visit(attribute);
+            for (MorphTarget& target : mesh_.morph_targets)
+                for (Attribute& delta : target.deltas) visit(delta);
+        };
+        for_each_stream([&](const Attribute& stream) { components += stream.components; });
+        budget_.attribute_bytes += wedges * components * sizeof(float);
+        require(budget_.attribute_bytes <= limits_.attribute_bytes, ErrorCode::asset_too_large,
+                pointer("meshes", index_),
+                "the meshes' attributes take more than {} bytes (limit attribute_bytes)",
+                limits_.attribute_bytes);
+        mesh_.positions.reserve(wedges);
+        mesh_.wedge_vertex.reserve(wedges);
+        for_each_stream([&](Attribute& stream) { stream.values.resize(wedges * stream.components); });
+    }
+
     void fill(size_t slot) {
         PrimitiveData& data = data_[slot];
-        const std::vector<uint32_t> used = take_used(data);
-        budget_.vertices += used.size();
-        require(budget_.vertices <= limits_.vertices, ErrorCode::asset_too_large, pointer("meshes", index_),
-                "the meshes have more than {} vertices (limit vertices)", limits_.vertices);
+        const std::vector<uint32_t>& used = used_[slot];
         const auto first = static_cast<uint32_t>(mesh_.wedge_vertex.size());
-        const Accessor& position = data.attributes.at("POSITION");
         for (const uint32_t vertex : used) {
-            const Vec3f p = {position.value(vertex, 0), position.value(vertex, 1), position.value(vertex, 2)};
+            const Accessor& at = *data.positions;
+            const Vec3f p = {at.value(vertex, 0), at.value(vertex, 1), at.value(vertex, 2)};
             demand(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), pointer("meshes", index_),
                    "has a position that is infinite or not a number, at vertex {} of primitive {}", vertex,
                    *mesh_.slots[slot].source_primitive);
@@ -122,29 +151,37 @@ class MeshReader {
         for (const uint32_t corner : data.triangles) mesh_.triangles.push_back(first + corner);
         mesh_.triangle_slot.insert(mesh_.triangle_slot.end(), data.triangles.size() / 3,
                                    static_cast<uint32_t>(slot));
-        for (Attribute& attribute : mesh_.attributes) append_values(attribute, data.attributes, used);
-        for (size_t t = 0; t < mesh_.morph_targets.size(); ++t)
-            for (Attribute& delta : mesh_.morph_targets[t].deltas)
-                append_values(delta, data.targets[t], used);
+        for (const NamedAccessor& from : data.attributes) {
+            const size_t a = find(mesh_.attributes, from.name);
+            mesh_.slots[slot].has_attribute[a] = true;
+            set_values(mesh_.attributes[a], *from.accessor, used, first);
+        }
+        for (size_t t = 0; t < data.targets.size(); ++t) {
+            std::vector<Attribute>& deltas = mesh_.morph_targets[t].deltas;
+            for (const NamedAccessor& from : data.targets[t])
+                set_values(deltas[find(deltas, from.name)], *from.accessor, used, first);
+        }
         data = {};
     }
 
-    static void append_values(Attribute& attribute, const std::map<std::string, Accessor>& from,
-                              const std::vector<uint32_t>& used) {
-        const auto found = from.find(attribute.name);
-        if (found == from.end()) {
-            attribute.values.resize(attribute.values.size() + used.size() * attribute.components, 0.0F);
-            return;
-        }
-        const Accessor& accessor = found->second;
+    // sorted: by name, as attributes_of made them.
+    static size_t find(const std::vector<Attribute>& sorted, std::string_view name) {
+        const auto found =
+            std::lower_bound(sorted.begin(), sorted.end(), name,
+                             [](const Attribute& a, std::string_view wanted) { return a.name < wanted; });
+        return static_cast<size_t>(found - sorted.begin());
+    }
+
+    // first: the wedge of the first of the used vertices.
+    static void set_values(Attribute& attribute, const Accessor& from, const std::vector<uint32_t>& used,
+                           size_t first) {
         const bool is_color = parse_attribute_name(attribute.name).semantic == Semantic::color;
+        float* value = attribute.values.data() + first * attribute.components;
         for (const uint32_t vertex : used)
-            for (uint32_t c = 0; c < attribute.components; ++c) {
+            for (uint32_t c = 0; c < attribute.components; ++c, ++value) {
                 // A colour without alpha, beside others that have it, is opaque.
-                const float value = c < accessor.components() ? accessor.value(vertex, c)
-                                    : is_color                ? 1.0F
-                                                              : 0.0F;
-                attribute.values.push_back(std::isfinite(value) ? value : 0.0F);
+                *value = c < from.components() ? from.value(vertex, c) : is_color ? 1.0F : 0.0F;
+                if (!std::isfinite(*value)) *value = 0;
             }
     }
 
@@ -153,7 +190,7 @@ class MeshReader {
         weld(mesh_, watch_);
         const CleanedTriangles cleaned = drop_degenerate_and_duplicate(mesh_, watch_);
         drop_unused(mesh_, watch_);
-        const std::string where = pointer("meshes", index_);
+        const Pointer where = pointer("meshes", index_);
         if (cleaned.degenerate > 0)
             parsed_.warn(
                 "repair.degenerate_triangles",
@@ -172,7 +209,8 @@ class MeshReader {
     MeshBudget& budget_;
     const Watch& watch_;
     Mesh mesh_;
-    std::vector<PrimitiveData> data_;  // per slot
+    std::vector<PrimitiveData> data_;          // per slot
+    std::vector<std::vector<uint32_t>> used_;  // per slot: the vertices that triangles use, ascending
 };
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace coppice::gltf {
 // What has been read so far, held against the limits.
 struct MeshBudget {
     uint64_t triangles = 0;
-    uint64_t vertices = 0;
+    uint64_t vertices = 0;         // of all primitives, with those that they share counted for each
+    uint64_t attribute_bytes = 0;  // as floats
 };
 
 // index: of the mesh in the document. Repairs go to parsed.warnings. Throws asset_malformed, asset_too_large.

@@ -1,6 +1,6 @@
 #include "core/format/gltf/read_primitive.h"
 
-#include "core/format/gltf/draco.h"
+#include <algorithm>
 
 namespace coppice::gltf {
 
@@ -30,10 +30,37 @@ std::vector<uint32_t> unroll(uint64_t mode, uint64_t count, const VertexAt& vert
     return out;
 }
 
-std::map<std::string, Accessor> accessors_of(const Parsed& parsed, const Json& map) {
-    std::map<std::string, Accessor> out;
-    for (const auto& [name, index] : map.items()) out.emplace(name, parsed.accessors[index.get<uint32_t>()]);
+NamedAccessors accessors_of(const Parsed& parsed, const Json& map) {
+    NamedAccessors out;
+    out.reserve(map.size());
+    for (const auto& [name, index] : map.get_ref<const Json::object_t&>())
+        out.push_back({name, &parsed.accessors[index.get<uint32_t>()]});
     return out;
+}
+
+// Puts what Draco decoded in the place of the accessors that say what it is.
+void decode(const Parsed& parsed, const Json& primitive, uint64_t triangle_limit, const Pointer& where,
+            PrimitiveData& data) {
+    data.decoded = std::make_unique<DracoPrimitive>(decode_draco(parsed, primitive, triangle_limit, where));
+    for (auto& [name, accessor] : data.attributes) {
+        demand(accessor->count == data.decoded->vertex_count, where / "attributes" / name,
+               "has {} elements, but the Draco stream has {} vertices", accessor->count,
+               data.decoded->vertex_count);
+        const auto found = data.decoded->attributes.find(name);
+        if (found != data.decoded->attributes.end()) accessor = &found->second;
+    }
+    data.triangles = std::move(data.decoded->triangles);
+}
+
+void unroll_indices(const Parsed& parsed, const Json& primitive, PrimitiveData& data) {
+    const uint64_t mode = unsigned_at(primitive, "mode", 4);
+    if (const auto index = index_at(primitive, "indices")) {
+        const Accessor& indices = parsed.accessors[*index];
+        data.triangles = unroll(mode, indices.count, [&](uint64_t i) { return indices.integer(i); });
+    } else {
+        const uint64_t count = parsed.accessors[*index_at(primitive["attributes"], "POSITION")].count;
+        data.triangles = unroll(mode, count, [](uint64_t i) { return static_cast<uint32_t>(i); });
+    }
 }
 
 }  // namespace
@@ -43,33 +70,19 @@ bool is_triangles(const Json& primitive) {
 }
 
 PrimitiveData read_primitive(const Parsed& parsed, const Json& primitive, uint64_t triangle_limit,
-                             const std::string& where) {
+                             const Pointer& where) {
     PrimitiveData data;
     data.attributes = accessors_of(parsed, primitive["attributes"]);
     for (const Json& target : list(primitive, "targets"))
         data.targets.push_back(accessors_of(parsed, target));
-    if (extension(primitive, "KHR_draco_mesh_compression") != nullptr) {
-        DracoPrimitive decoded = decode_draco(parsed, primitive, triangle_limit, where);
-        for (auto& [name, accessor] : decoded.attributes) data.attributes[name] = accessor;
-        for (const auto& [name, accessor] : data.attributes)
-            demand(accessor.count == decoded.vertex_count, where + "/attributes/" + name,
-                   "has {} elements, but the Draco stream has {} vertices", accessor.count,
-                   decoded.vertex_count);
-        data.vertex_count = decoded.vertex_count;
-        data.triangles = std::move(decoded.triangles);
-        data.owned = std::move(decoded.owned);
-        data.is_draco = true;
-        return data;
-    }
-    data.vertex_count = data.attributes.at("POSITION").count;
-    const uint64_t mode = unsigned_at(primitive, "mode", 4);
-    const auto indices = index_at(primitive, "indices");
-    const uint64_t count = indices ? parsed.accessors[*indices].count : data.vertex_count;
-    require((mode == 4 ? count / 3 : count) <= triangle_limit, ErrorCode::asset_too_large, where,
-            "{} has more triangles than are read (limit triangles)", where);
-    data.triangles =
-        indices ? unroll(mode, count, [&](uint64_t i) { return parsed.accessors[*indices].integer(i); })
-                : unroll(mode, count, [](uint64_t i) { return static_cast<uint32_t>(i); });
+    if (extension(primitive, "KHR_draco_mesh_compression") != nullptr)
+        decode(parsed, primitive, triangle_limit, where, data);
+    else
+        unroll_indices(parsed, primitive, data);
+    const auto positions = std::find_if(data.attributes.begin(), data.attributes.end(),
+                                        [](const NamedAccessor& a) { return a.name == "POSITION"; });
+    data.positions = positions->accessor;
+    data.attributes.erase(positions);
     return data;
 }
 

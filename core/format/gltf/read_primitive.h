@@ -1,28 +1,36 @@
 // A triangle primitive, however it was stored: as plain triangles and readable attributes.
 #pragma once
 
-#include <map>
-#include <string>
+#include <memory>
+#include <string_view>
 #include <vector>
 
+#include "core/format/gltf/draco.h"
 #include "core/format/gltf/parsed.h"
 
 namespace coppice::gltf {
 
+// Names and accessors are views into Parsed, and into PrimitiveData where Draco decoded them.
+struct NamedAccessor {
+    std::string_view name;
+    const Accessor* accessor;
+};
+using NamedAccessors = std::vector<NamedAccessor>;  // by name, ascending
+
 struct PrimitiveData {
-    uint64_t vertex_count = 0;
-    std::vector<uint32_t> triangles;             // 3 vertices each, counter-clockwise, in range
-    std::map<std::string, Accessor> attributes;  // POSITION among them
-    std::vector<std::map<std::string, Accessor>> targets;
-    std::vector<Bytes> owned;  // what Draco decoded
-    bool is_draco = false;
+    std::vector<uint32_t> triangles;  // 3 vertices each, counter-clockwise, in range
+    const Accessor* positions = nullptr;
+    NamedAccessors attributes;  // without POSITION
+    std::vector<NamedAccessors> targets;
+    std::unique_ptr<DracoPrimitive> decoded;  // what Draco decoded
 };
 
 // Triangles, strips and fans with positions; all else is passed through.
 bool is_triangles(const Json& primitive);
 
-// triangle_limit: how many more triangles may be read. Throws asset_malformed, asset_too_large.
+// triangle_limit: how many triangles a Draco stream may have; what accessors say was checked before. Throws
+// asset_malformed, asset_too_large.
 PrimitiveData read_primitive(const Parsed& parsed, const Json& primitive, uint64_t triangle_limit,
-                             const std::string& where);
+                             const Pointer& where);
 
 }  // namespace coppice::gltf

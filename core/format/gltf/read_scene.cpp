@@ -1,21 +1,26 @@
 #include "core/format/gltf/read_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+
+#include "core/format/gltf/tiny_gltf_model.h"
 
 namespace coppice::gltf {
 
 namespace {
 
-Transform local_transform(const tinygltf::Node& node) {
-    if (node.matrix.size() == 16)
-        return from_column_major(std::span<const double, 16>(node.matrix.data(), 16));
-    const auto vector = [](const std::vector<double>& v, Vec3d otherwise) {
-        return v.size() == 3 ? Vec3d{v[0], v[1], v[2]} : otherwise;
-    };
-    std::array<double, 4> rotation = {0, 0, 0, 1};
-    if (node.rotation.size() == 4) std::copy_n(node.rotation.begin(), 4, rotation.begin());
-    return from_trs(vector(node.translation, {0, 0, 0}), rotation, vector(node.scale, {1, 1, 1}));
+template <size_t N>
+std::array<double, N> numbers_at(const Json& object, std::string_view key, std::array<double, N> otherwise) {
+    const auto found = object.find(key);
+    return found == object.end() ? otherwise : found->get<std::array<double, N>>();
+}
+
+Transform local_transform(const Json& node) {
+    if (node.contains("matrix")) return from_column_major(numbers_at<16>(node, "matrix", {}));
+    const auto [tx, ty, tz] = numbers_at<3>(node, "translation", {0, 0, 0});
+    const auto [sx, sy, sz] = numbers_at<3>(node, "scale", {1, 1, 1});
+    return from_trs({tx, ty, tz}, numbers_at<4>(node, "rotation", {0, 0, 0, 1}), {sx, sy, sz});
 }
 
 const Accessor* instance_attribute(const Parsed& parsed, const Json& attributes, std::string_view name) {
@@ -80,26 +85,27 @@ TextureUse texture_use(const tinygltf::Model& model, const Json& document, const
 
 }  // namespace
 
-std::vector<Node> read_nodes(const Parsed& parsed, const tinygltf::Model& model) {
-    std::vector<Node> nodes(model.nodes.size());
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        const tinygltf::Node& from = model.nodes[i];
-        nodes[i].name = from.name;
-        nodes[i].local = local_transform(from);
-        if (from.mesh >= 0) nodes[i].mesh = static_cast<uint32_t>(from.mesh);
-        nodes[i].skinned = from.skin >= 0;
-        for (const int child : from.children) {
-            nodes[i].children.push_back(static_cast<uint32_t>(child));
-            nodes[static_cast<size_t>(child)].parent = static_cast<uint32_t>(i);
+std::vector<Node> read_nodes(const Parsed& parsed) {
+    const Json& json = list(parsed.json, "nodes");
+    std::vector<Node> nodes(json.size());
+    for (uint32_t i = 0; i < nodes.size(); ++i) {
+        nodes[i].name = text_at(json[i], "name");
+        nodes[i].local = local_transform(json[i]);
+        nodes[i].mesh = index_at(json[i], "mesh");
+        nodes[i].skinned = json[i].contains("skin");
+        for (const Json& child : list(json[i], "children")) {
+            nodes[i].children.push_back(child.get<uint32_t>());
+            nodes[nodes[i].children.back()].parent = i;
         }
-        if (const Json* instancing = extension(parsed.json["nodes"][i], "EXT_mesh_gpu_instancing"))
+        if (const Json* instancing = extension(json[i], "EXT_mesh_gpu_instancing"))
             nodes[i].batch = read_batch(parsed, *instancing);
     }
     mark_animated(parsed.json, nodes);
     return nodes;
 }
 
-std::vector<Material> read_materials(const Parsed& parsed, const tinygltf::Model& model) {
+std::vector<Material> read_materials(const Json& document) {
+    const tinygltf::Model model = parse_model(document);
     std::vector<Material> materials;
     for (const tinygltf::Material& from : model.materials) {
         Material material;
@@ -111,9 +117,9 @@ std::vector<Material> read_materials(const Parsed& parsed, const tinygltf::Model
             material.emissive[c] = static_cast<float>(from.emissiveFactor[c]);
         material.metallic = static_cast<float>(pbr.metallicFactor);
         material.roughness = static_cast<float>(pbr.roughnessFactor);
-        material.base_color_texture = texture_use(model, parsed.json, pbr.baseColorTexture);
-        material.emissive_texture = texture_use(model, parsed.json, from.emissiveTexture);
-        material.normal_texture = texture_use(model, parsed.json, from.normalTexture);
+        material.base_color_texture = texture_use(model, document, pbr.baseColorTexture);
+        material.emissive_texture = texture_use(model, document, from.emissiveTexture);
+        material.normal_texture = texture_use(model, document, from.normalTexture);
         material.alpha = from.alphaMode == "MASK"    ? Material::Alpha::mask
                          : from.alphaMode == "BLEND" ? Material::Alpha::blend
                                                      : Material::Alpha::opaque;
@@ -123,15 +129,13 @@ std::vector<Material> read_materials(const Parsed& parsed, const tinygltf::Model
     return materials;
 }
 
-std::vector<uint32_t> read_roots(const std::vector<Node>& nodes, const tinygltf::Model& model) {
+std::vector<uint32_t> read_roots(const Json& document, const std::vector<Node>& nodes) {
+    const Json& scenes = list(document, "scenes");
+    if (!scenes.empty())
+        return list(scenes[unsigned_at(document, "scene")], "nodes").get<std::vector<uint32_t>>();
     std::vector<uint32_t> roots;
-    if (model.scenes.empty()) {
-        for (uint32_t i = 0; i < nodes.size(); ++i)
-            if (!nodes[i].parent) roots.push_back(i);
-        return roots;
-    }
-    const size_t scene = model.defaultScene >= 0 ? static_cast<size_t>(model.defaultScene) : 0;
-    for (const int root : model.scenes[scene].nodes) roots.push_back(static_cast<uint32_t>(root));
+    for (uint32_t i = 0; i < nodes.size(); ++i)
+        if (!nodes[i].parent) roots.push_back(i);
     return roots;
 }
 

@@ -1,6 +1,6 @@
 #include "core/format/gltf/schema.h"
 
-#include <algorithm>
+#include <map>
 #include <numbers>
 
 namespace coppice::gltf {
@@ -235,20 +235,19 @@ std::vector<Schema> other_extension_schemas() {
     };
 }
 
-std::vector<Schema> all_schemas() {
-    std::vector<Schema> all = core_schemas();
-    for (auto* more : {&material_extension_schemas, &other_extension_schemas})
-        for (Schema& schema : (*more)()) all.push_back(std::move(schema));
+std::map<std::string_view, Schema> all_schemas() {
+    std::map<std::string_view, Schema> all;
+    for (auto* some : {&core_schemas, &material_extension_schemas, &other_extension_schemas})
+        for (Schema& schema : (*some)()) all.emplace(schema.name, std::move(schema));
     return all;
 }
 
 }  // namespace
 
 const Schema* find_schema(std::string_view name) {
-    static const std::vector<Schema> schemas = all_schemas();
-    const auto found = std::find_if(schemas.begin(), schemas.end(),
-                                    [&](const Schema& schema) { return schema.name == name; });
-    return found == schemas.end() ? nullptr : &*found;
+    static const std::map<std::string_view, Schema> schemas = all_schemas();
+    const auto found = schemas.find(name);
+    return found == schemas.end() ? nullptr : &found->second;
 }
 
 const std::vector<ExtensionPlace>& extension_places() {

@@ -4,12 +4,11 @@
 
 namespace coppice::gltf {
 
-void for_each_metadata_view(Json& document,
-                            const std::function<uint32_t(uint32_t, const std::string&)>& see) {
+void for_each_metadata_view(Json& document, const std::function<uint32_t(uint32_t, const Pointer&)>& see) {
     if (extension(document, "EXT_structural_metadata") == nullptr) return;
     Json& metadata = document["extensions"]["EXT_structural_metadata"];
     if (!metadata.contains("propertyTables")) return;
-    const std::string where = "/extensions/EXT_structural_metadata/propertyTables";
+    const Pointer where = pointer("extensions", "EXT_structural_metadata", "propertyTables");
     const size_t views = list(document, "bufferViews").size();
     demand(metadata["propertyTables"].is_array(), where, "must be an array");
     for (Json& table : metadata["propertyTables"]) {

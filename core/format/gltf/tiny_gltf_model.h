@@ -1,5 +1,4 @@
-// tinygltf, as we use it: the structure of a document that our checks have passed, without bytes, images or
-// files.
+// tinygltf, as we use it: the materials and textures of a document that our checks have passed.
 #pragma once
 
 // tinygltf leaves these to whoever includes it.
@@ -19,9 +18,8 @@
 
 namespace coppice::gltf {
 
-// tinygltf has no bounds checks of its own, so it never sees a buffer: it is given the document with one
-// placeholder byte for all buffers, no images and no extras. Accessors are read by accessor.h alone. Throws
-// asset_malformed with what tinygltf says.
+// tinygltf has no bounds checks of its own and takes its time, so it never sees a buffer, an image, a mesh or
+// a node. Accessors are read by accessor.h alone. Throws asset_malformed with what tinygltf says.
 tinygltf::Model parse_model(const Json& checked);
 
 }  // namespace coppice::gltf

@@ -29,10 +29,10 @@ void add_bounds(const Accessor& accessor, Json& json) {
     for (uint32_t c = 0; c < accessor.components(); ++c) {
         double low = std::numeric_limits<double>::infinity();
         double high = -low;
-        for (uint64_t i = 0; i < accessor.count; ++i) {
-            low = std::min(low, accessor.raw(i, c));
-            high = std::max(high, accessor.raw(i, c));
-        }
+        accessor.for_each_raw(0, accessor.count, c, [&](double value) {
+            low = std::min(low, value);
+            high = std::max(high, value);
+        });
         json["min"].push_back(number(low, accessor.storage.type));
         json["max"].push_back(number(high, accessor.storage.type));
     }

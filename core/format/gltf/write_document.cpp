@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/base/error.h"
+#include "core/format/gltf/described.h"
 #include "core/format/gltf/document.h"
 #include "core/format/gltf/drawable_materials.h"
 #include "core/format/gltf/fresh_document.h"
@@ -36,6 +37,15 @@ void set_declared(Json& document, const char* list_name, const char* name, bool 
         document[list_name] = std::move(names);
 }
 
+// Of the source, what is not made anew. Its buffer views are listed until the buffer is finished: indices of
+// metadata are checked against them.
+Json passed_on(const Json& source) {
+    Json out = Json::object();
+    for (const auto& [key, value] : source.get_ref<const Json::object_t&>())
+        if (key != "meshes" && key != "nodes" && key != "accessors") out[key] = value;
+    return out;
+}
+
 class DocumentWriter {
   public:
     DocumentWriter(const Scene& scene, const WriteOptions& options, const Watch& watch)
@@ -45,7 +55,7 @@ class DocumentWriter {
           source_(dynamic_cast<const GltfDocument*>(scene.source.get())) {}
 
     WrittenDocument write(Images images) {
-        out_.json = source_ != nullptr ? source_->json : fresh_document(scene_);
+        out_.json = source_ != nullptr ? passed_on(source_->json) : fresh_document(scene_);
         if (keeps_indices())
             buffer_.keep(list(source_->json, "accessors"), list(source_->json, "bufferViews"),
                          source_->buffer_views);
@@ -84,15 +94,7 @@ class DocumentWriter {
     }
 
     Accessor passed_accessor(uint32_t index) const {
-        const Json& json = source_->json["accessors"][index];
-        Accessor accessor;
-        const std::string type = text_at(json, "type");
-        const auto digit = static_cast<uint32_t>(type.back() - '0');
-        accessor.rows = type == "SCALAR" ? 1 : digit;
-        accessor.columns = type.starts_with("MAT") ? digit : 1;
-        accessor.storage = {static_cast<ComponentType>(unsigned_at(json, "componentType")),
-                            json.value("normalized", false)};
-        accessor.count = unsigned_at(json, "count");
+        Accessor accessor = described(source_->json["accessors"][index]);
         accessor.bytes = source_->accessors.at(index);
         accessor.stride = accessor.tight_stride();
         return accessor;
@@ -113,7 +115,6 @@ class DocumentWriter {
             kind_ = is_index_accessor(index) ? BufferWriter::Kind::indices : BufferWriter::Kind::vertices;
             return pass(index);
         };
-        out_.json.erase("meshes");
         for (const Mesh& mesh : scene_.meshes) {
             watch_.check();
             const Json* from = nullptr;
@@ -138,9 +139,13 @@ class DocumentWriter {
     }
 
     void write_scene_nodes() {
-        NodeContext context{source_, buffer_, passer(BufferWriter::Kind::data), dropped_};
-        write_nodes(scene_, out_.json, context);
+        NodeContext context{source_, buffer_, passer(BufferWriter::Kind::data), dropped_, {}};
+        write_nodes(scene_, out_.json, context, watch_);
         uses_instancing_ = context.uses_instancing;
+        for (const std::string& name : context.lost_attributes)
+            out_.warnings.push_back(
+                {"format.lost",
+                 fmt::format("instances that are nodes have no attributes: {} was left out", name)});
     }
 
     void pass_animations_and_skins() {
@@ -160,9 +165,8 @@ class DocumentWriter {
 
     void pass_metadata() {
         if (source_ == nullptr || keeps_indices()) return;
-        // The views of the source are still listed, which is what the indices are checked against.
         std::map<uint32_t, uint32_t> views;
-        for_each_metadata_view(out_.json, [&](uint32_t view, const std::string&) {
+        for_each_metadata_view(out_.json, [&](uint32_t view, const Pointer&) {
             const auto [known, is_new] = views.try_emplace(view, 0);
             if (is_new) known->second = buffer_.add_view(source_->buffer_views.at(view));
             return known->second;
@@ -199,25 +203,6 @@ class DocumentWriter {
     bool uses_instancing_ = false;
 };
 
-// Each instance of a batch as a child node.
-Scene batches_as_nodes(const Scene& scene) {
-    Scene out = scene;
-    for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].batch.empty()) continue;
-        for (const Transform& transform : scene.nodes[i].batch) {
-            Node child;
-            child.parent = i;
-            child.local = transform;
-            child.mesh = scene.nodes[i].mesh;
-            out.nodes[i].children.push_back(static_cast<uint32_t>(out.nodes.size()));
-            out.nodes.push_back(std::move(child));
-        }
-        out.nodes[i].mesh.reset();
-        out.nodes[i].batch.clear();
-    }
-    return out;
-}
-
 }  // namespace
 
 WrittenDocument write_document(const Scene& scene, const WriteOptions& options, Images images,
@@ -229,7 +214,10 @@ WrittenDocument write_document(const Scene& scene, const WriteOptions& options, 
     if (dynamic_cast<const GltfDocument*>(scene.source.get()) == nullptr)
         changed = with_drawable_materials(scene, warnings);
     if (options.instancing == Instancing::expand) changed = expand_meshes(changed ? *changed : scene);
-    if (options.instancing == Instancing::nodes) changed = batches_as_nodes(changed ? *changed : scene);
+    if (options.instancing == Instancing::nodes) {
+        if (!changed) changed = scene;
+        unfold_batches(*changed);
+    }
     WrittenDocument out = DocumentWriter(changed ? *changed : scene, options, watch).write(images);
     out.warnings.insert(out.warnings.begin(), warnings.begin(), warnings.end());
     return out;

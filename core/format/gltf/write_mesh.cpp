@@ -1,6 +1,8 @@
 #include "core/format/gltf/write_mesh.h"
 
 #include <algorithm>
+#include <string_view>
+#include <unordered_map>
 
 #include "core/format/gltf/legal_values.h"
 #include "core/format/gltf/parsed.h"
@@ -81,7 +83,9 @@ Storage allowed_storage(std::string_view name, uint32_t components, Storage stor
 
 class PrimitiveWriter {
   public:
-    PrimitiveWriter(const Mesh& mesh, MeshContext& context) : mesh_(mesh), context_(context) {}
+    PrimitiveWriter(const Mesh& mesh, MeshContext& context) : mesh_(mesh), context_(context) {
+        for (size_t a = 0; a < mesh.attributes.size(); ++a) attributes_.emplace(mesh.attributes[a].name, a);
+    }
 
     // source: the primitive's object in the source, or an empty object.
     Json write(uint32_t slot, const SlotGeometry& geometry, Json source) {
@@ -148,11 +152,9 @@ class PrimitiveWriter {
     Json deltas(const MorphTarget& target, uint32_t slot, const SlotGeometry& geometry) {
         Json out = Json::object();
         for (const Attribute& delta : target.deltas) {
-            const auto base = std::find_if(mesh_.attributes.begin(), mesh_.attributes.end(),
-                                           [&](const Attribute& a) { return a.name == delta.name; });
+            const auto base = attributes_.find(delta.name);
             const bool has_base =
-                delta.name == "POSITION" || (base != mesh_.attributes.end() &&
-                                             has(slot, static_cast<size_t>(base - mesh_.attributes.begin())));
+                delta.name == "POSITION" || (base != attributes_.end() && has(slot, base->second));
             if (has_base && is_storable(delta)) out[delta.name] = values(delta, geometry, true);
         }
         // A target without any delta is not allowed; one of zeros is.
@@ -174,6 +176,7 @@ class PrimitiveWriter {
 
     const Mesh& mesh_;
     MeshContext& context_;
+    std::unordered_map<std::string_view, size_t> attributes_;  // of the mesh, by name
 };
 
 // Points, lines, and what has no positions: as it was, with accessors of the result.

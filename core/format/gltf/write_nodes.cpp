@@ -64,14 +64,18 @@ Json batch_json(BufferWriter& buffer, const std::vector<Trs>& batch) {
 
 class NodeWriter {
   public:
-    NodeWriter(const Scene& scene, NodeContext& context)
+    NodeWriter(const Scene& scene, NodeContext& context, const Watch& watch)
         : scene_(scene),
           context_(context),
+          watch_(watch),
           out_(Json::array()),
           next_(static_cast<uint32_t>(scene.nodes.size())) {}
 
     Json write() {
-        for (uint32_t i = 0; i < scene_.nodes.size(); ++i) out_.push_back(write_node(i));
+        for (uint32_t i = 0; i < scene_.nodes.size(); ++i) {
+            watch_.check();
+            out_.push_back(write_node(i));
+        }
         for (Json& inner : appended_) out_.push_back(std::move(inner));
         return std::move(out_);
     }
@@ -87,8 +91,10 @@ class NodeWriter {
         const Node* was = before(i);
         Json json = was != nullptr ? context_.source->json["nodes"][i] : Json::object();
         if (!node.name.empty()) json["name"] = node.name;
-        json.erase("children");
-        if (!node.children.empty()) json["children"] = node.children;
+        if (was == nullptr || was->children != node.children) {
+            json.erase("children");
+            if (!node.children.empty()) json["children"] = node.children;
+        }
         Json* carrier = &json;  // which has mesh and children
         if (was == nullptr || was->local != node.local)
             carrier = place(json, node.local, pointer("nodes", i));
@@ -103,7 +109,7 @@ class NodeWriter {
 
     // Gives the node its transform. Where it shears, an inner node takes over children and mesh; returns it
     // then.
-    Json* place(Json& json, const Transform& transform, const std::string& where) {
+    Json* place(Json& json, const Transform& transform, const Pointer& where) {
         if (const auto trs = decompose(transform)) {
             set_trs(json, *trs);
             return &json;
@@ -128,8 +134,11 @@ class NodeWriter {
             context_.uses_instancing = true;
             return;
         }
-        if (json.contains("extensions")) {
-            if (json["extensions"].erase(name) > 0 && json["extensions"].erase("EXT_instance_features") > 0)
+        if (const Json* lost = extension(json, name)) {
+            for (const auto& [attribute, index] : (*lost)["attributes"].get_ref<const Json::object_t&>())
+                if (attribute.starts_with('_')) context_.lost_attributes.insert(attribute);
+            json["extensions"].erase(name);
+            if (json["extensions"].erase("EXT_instance_features") > 0)
                 context_.dropped.insert("EXT_instance_features");
             if (json["extensions"].empty()) json.erase("extensions");
         }
@@ -159,6 +168,7 @@ class NodeWriter {
 
     const Scene& scene_;
     NodeContext& context_;
+    const Watch& watch_;
     Json out_;
     std::deque<Json> appended_;
     uint32_t next_;
@@ -166,9 +176,8 @@ class NodeWriter {
 
 }  // namespace
 
-void write_nodes(const Scene& scene, Json& document, NodeContext& context) {
-    document.erase("nodes");
-    if (!scene.nodes.empty()) document["nodes"] = NodeWriter(scene, context).write();
+void write_nodes(const Scene& scene, Json& document, NodeContext& context, const Watch& watch) {
+    if (!scene.nodes.empty()) document["nodes"] = NodeWriter(scene, context, watch).write();
 }
 
 }  // namespace coppice::gltf

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/format/gltf/beyond_scene.h"
 #include "core/format/warning_tally.h"
 
 namespace coppice {
@@ -53,9 +54,8 @@ std::vector<Warning> obj_losses(const Scene& scene) {
             }
         }
     }
-    for (const Node& node : scene.nodes) {
-        if (node.animated) tally.note(code, "OBJ holds no animations", node.name);
-    }
+    for (const gltf::Beyond& beyond : gltf::beyond_scene(scene))
+        tally.note(code, "OBJ holds no " + beyond.what, beyond.where);
     std::vector<Warning> warnings;
     tally.move_to(warnings);
     return warnings;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <zip.h>
 
+#include <chrono>
 #include <string>
 
 #include "core/base/error.h"
@@ -52,6 +53,19 @@ TEST(Zip, gives_back_the_files_that_were_written) {
     ASSERT_EQ(files.size(), 2U);
     EXPECT_EQ(files[1].path, "textures/a.png");
     EXPECT_EQ(files[1].bytes, two_files[1].bytes);
+}
+
+TEST(Zip, stops_packing_when_it_is_told_to) {
+    NamedFile noise{"noise.bin", Bytes(32 << 20)};
+    uint32_t state = 1;
+    for (std::byte& byte : noise.bytes)
+        byte = static_cast<std::byte>((state = state * 1664525 + 1013904223) >> 24);
+    std::stop_source source;
+    source.request_stop();
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_THROW(write_zip({noise}, {.stop = source.get_token()}), Error);
+    // All of it takes more than a second, what is packed before the stop is seen some milliseconds.
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(500));
 }
 
 TEST(Zip, writes_the_same_bytes_again) {

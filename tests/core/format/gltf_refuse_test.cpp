@@ -1,6 +1,8 @@
 // What is refused, and how it is told.
 #include <limits>
 
+#include "core/format/gltf/check_schema.h"
+#include "core/format/gltf/checks.h"
 #include "core/format/gltf/glb.h"
 #include "tests/core/format/gltf_document.h"
 
@@ -172,6 +174,151 @@ TEST(GltfRefuse, nodes_deeper_than_the_limit) {
     nodes.push_back({{"mesh", 0}});
     builder.json["nodes"] = nodes;
     EXPECT_THAT(error_of(builder), HasSubstr("node_depth"));
+}
+
+// What reading it within such limits throws.
+std::string error_within(const ReadLimits& limits, const GltfBuilder& builder) {
+    const Bytes bytes = builder.glb();
+    return error_of([&] { read_gltf(bytes, Resources(), limits, Watch()); });
+}
+
+// An accessor of zeros, which takes no byte of the file.
+size_t add_zeros(GltfBuilder& builder, size_t count, const char* type) {
+    builder.json["accessors"].push_back({{"componentType", 5126},
+                                         {"count", count},
+                                         {"type", type},
+                                         {"min", Json::array({0, 0, 0})},
+                                         {"max", Json::array({0, 0, 0})}});
+    return builder.json["accessors"].size() - 1;
+}
+
+TEST(GltfRefuse, a_mesh_with_more_attributes_than_the_limit) {
+    GltfBuilder builder = square();
+    Json& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
+    for (int i = 0; i < 5000; ++i) attributes[fmt::format("_{}", i)] = 0;
+    EXPECT_THAT(error_of(builder), StartsWith("asset.too_large /meshes/0/primitives/0"));
+    EXPECT_THAT(error_of(builder), HasSubstr("limit attributes"));
+}
+
+TEST(GltfRefuse, more_attributes_of_morph_targets_than_the_limit) {
+    GltfBuilder builder = square();
+    for (int i = 0; i < 5000; ++i)
+        builder.json["meshes"][0]["primitives"][0]["targets"].push_back({{"POSITION", 0}});
+    EXPECT_THAT(error_of(builder), HasSubstr("limit attributes"));
+}
+
+TEST(GltfRefuse, accessors_of_more_bytes_than_the_limit) {
+    GltfBuilder builder = square();
+    for (int i = 0; i < 4; ++i) add_zeros(builder, 29'000'000, "VEC3");
+    EXPECT_THAT(error_of(builder), HasSubstr("limit attribute_bytes"));
+}
+
+TEST(GltfRefuse, attributes_that_would_take_more_bytes_than_the_limit) {
+    GltfBuilder builder = square();
+    Json& primitive = builder.json["meshes"][0]["primitives"][0];
+    for (int i = 0; i < 10; ++i) primitive["attributes"][fmt::format("_{}", i)] = 0;
+    // As stored: 48 bytes of positions and 12 of indices; as floats: 10 attributes of 4 vertices.
+    EXPECT_EQ(error_within({.attribute_bytes = 480}, builder), "no error");
+    EXPECT_THAT(error_within({.attribute_bytes = 479}, builder), HasSubstr("limit attribute_bytes"));
+}
+
+TEST(GltfRefuse, more_vertices_or_triangles_than_the_limit_before_it_looks_at_a_byte) {
+    GltfBuilder builder = square();
+    builder.json["accessors"][0].erase("bufferView");
+    builder.json["bufferViews"][1]["byteLength"] = 4096;  // wrong, but never looked at
+    EXPECT_THAT(error_within({.vertices = 3}, builder), HasSubstr("limit vertices"));
+    EXPECT_THAT(error_within({.triangles = 1}, builder), HasSubstr("limit triangles"));
+}
+
+TEST(GltfRefuse, more_objects_than_the_limit_of_whatever_kind) {
+    for (const char* kind :
+         {"scenes", "materials", "textures", "samplers", "skins", "cameras", "animations"}) {
+        GltfBuilder builder = square();
+        for (int i = 0; i < 20; ++i) builder.json[kind].push_back(Json::object());
+        EXPECT_THAT(error_within({.objects = 20}, builder),
+                    StartsWith("asset.too_large /" + std::string(kind)));
+    }
+    GltfBuilder builder = square();
+    builder.json["animations"] = {{{"channels", Json::array()}, {"samplers", Json::array()}}};
+    for (int i = 0; i < 20; ++i) builder.json["animations"][0]["channels"].push_back(Json::object());
+    EXPECT_THAT(error_within({.objects = 20}, builder), HasSubstr("limit objects"));
+}
+
+TEST(GltfRefuse, more_buffer_views_than_accessors_may_be) {
+    GltfBuilder builder = square();
+    for (int i = 0; i < 20; ++i) builder.json["bufferViews"].push_back(Json::object());
+    EXPECT_THAT(error_within({.accessors = 20}, builder), StartsWith("asset.too_large /bufferViews"));
+}
+
+TEST(GltfRefuse, more_values_of_json_than_the_limit) {
+    EXPECT_THAT(error_within({.json_values = 20}, square()), HasSubstr("limit json_values"));
+}
+
+TEST(GltfRefuse, views_that_an_unknown_extension_may_mean_and_that_share_more_bytes_than_the_limit) {
+    GltfBuilder builder = square();
+    builder.json["extensionsUsed"] = {"X_indices"};
+    builder.json["extensions"]["X_indices"] = {{"view", 1}};
+    for (int i = 0; i < 100; ++i) builder.json["bufferViews"].push_back(builder.json["bufferViews"][0]);
+    EXPECT_EQ(error_of(builder), "no error");
+    EXPECT_THAT(error_within({.zip_bytes = 1000}, builder), HasSubstr("limit zip_bytes"));
+}
+
+// A Draco stream that ends after its counts, with the primitive around it.
+std::string error_of_draco(const std::vector<uint8_t>& stream, const ReadLimits& limits = {}) {
+    GltfBuilder builder = square();
+    const size_t view = builder.json["bufferViews"].size();
+    builder.add<uint8_t>(stream, 5121, "SCALAR", 1);
+    builder.json["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+    builder.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
+        {"bufferView", view}, {"attributes", {{"POSITION", 0}}}};
+    return error_within(limits, builder);
+}
+
+// Version 2.2, triangles, edgebreaker or not, no flags.
+std::vector<uint8_t> draco_header(bool edgebreaker) {
+    return {'D', 'R', 'A', 'C', 'O', 2, 2, 1, static_cast<uint8_t>(edgebreaker), 0, 0};
+}
+
+TEST(GltfRefuse, a_draco_stream_that_claims_more_triangles_than_the_limit) {
+    std::vector<uint8_t> edgebreaker = draco_header(true);
+    edgebreaker.insert(edgebreaker.end(),
+                       {0, 4, 0xFF, 0xFF, 0xFF, 0x7F});  // 4 vertices, 268 million triangles
+    EXPECT_THAT(error_of_draco(edgebreaker), HasSubstr("limit triangles"));
+    std::vector<uint8_t> sequential = draco_header(false);
+    sequential.insert(sequential.end(), {0xFF, 0xFF, 0xFF, 0x7F, 4});
+    EXPECT_THAT(error_of_draco(sequential), HasSubstr("limit triangles"));
+}
+
+TEST(GltfRefuse, a_draco_stream_that_claims_more_vertices_than_its_accessors) {
+    std::vector<uint8_t> edgebreaker = draco_header(true);
+    edgebreaker.insert(edgebreaker.end(), {0, 0xFF, 0xFF, 0xFF, 0x7F, 2});
+    EXPECT_THAT(error_of_draco(edgebreaker), HasSubstr("4 vertices in its accessors"));
+    std::vector<uint8_t> sequential = draco_header(false);
+    sequential.insert(sequential.end(), {2, 0xFF, 0xFF, 0xFF, 0x7F});
+    EXPECT_THAT(error_of_draco(sequential), HasSubstr("4 vertices in its accessors"));
+}
+
+TEST(GltfRefuse, a_place_with_a_slash_in_a_key_as_json_pointers_have_it) {
+    GltfBuilder builder = square();
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["a/b~c"] = 0;
+    EXPECT_THAT(error_of(builder), StartsWith("asset.malformed /meshes/0/primitives/0/attributes/a~1b~0c"));
+}
+
+TEST(GltfRefuse, stops_inside_of_every_check_when_it_is_told_to) {
+    std::stop_source source;
+    source.request_stop();
+    const Watch stopped{.stop = source.get_token()};
+    const std::string text = square().gltf();
+    EXPECT_THAT(error_of([&] { gltf::parse_json(as_bytes(text), {}, stopped); }),
+                StartsWith("job.cancelled"));
+    gltf::Parsed parsed;
+    parsed.json = gltf::parse_json(as_bytes(text), {}, {});
+    EXPECT_THAT(error_of([&] { gltf::check_schema(parsed.json, stopped); }), StartsWith("job.cancelled"));
+    EXPECT_THAT(error_of([&] { gltf::check_claims(parsed.json, {}, stopped); }), StartsWith("job.cancelled"));
+    EXPECT_THAT(error_of([&] { gltf::check_extensions(parsed, stopped); }), StartsWith("job.cancelled"));
+    EXPECT_THAT(error_of([&] { gltf::check_nodes(parsed, {}, stopped); }), StartsWith("job.cancelled"));
+    EXPECT_THAT(error_of([&] { gltf::check_materials(parsed, stopped); }), StartsWith("job.cancelled"));
+    EXPECT_THAT(error_of([&] { gltf::check_instancing(parsed, stopped); }), StartsWith("job.cancelled"));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ using test::Json;
 using test::read_again;
 using test::square;
 using test::written_json;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
@@ -114,6 +115,23 @@ TEST(GltfWrite, makes_nodes_of_a_batch) {
     EXPECT_EQ(out["nodes"][2]["mesh"], 0);
     EXPECT_FALSE(out["nodes"][0].contains("mesh"));
     EXPECT_THAT(written_json(scene, Instancing::expand)["meshes"], SizeIs(2));
+}
+
+TEST(GltfWrite, says_which_attributes_of_instances_single_nodes_cannot_have) {
+    GltfBuilder builder = square();
+    builder.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+    const size_t translations = builder.add<float>({1, 0, 0, 2, 0, 0}, 5126, "VEC3", 3);
+    const size_t ids = builder.add<float>({7, 8}, 5126, "SCALAR", 1);
+    builder.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", translations}, {"_ID", ids}};
+    const Scene scene = test::read(builder);
+    EXPECT_THAT(write_glb(scene, {}, Watch()).warnings, IsEmpty());
+    for (const Instancing instancing : {Instancing::nodes, Instancing::expand}) {
+        const WrittenAsset written = write_glb(scene, {.instancing = instancing}, Watch());
+        ASSERT_THAT(written.warnings, SizeIs(1));
+        EXPECT_EQ(written.warnings[0].code, "format.lost");
+        EXPECT_THAT(written.warnings[0].message, HasSubstr("_ID"));
+    }
 }
 
 TEST(GltfWrite, writes_a_scene_that_never_was_gltf) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/format/obj/read_obj.h"
+#include "tests/core/format/gltf_document.h"
 
 namespace coppice {
 namespace {
@@ -113,8 +114,39 @@ TEST(ObjWrite, warns_of_what_obj_cannot_hold) {
     for (const char* name : {"TANGENT", "TEXCOORD_1", "JOINTS_0"})
         mesh.attributes.push_back({name, 2, {}, std::vector<float>(6)});
     mesh.morph_targets.resize(1);
-    scene.nodes[0].animated = true;
-    EXPECT_EQ(write(scene).warnings.size(), 5U);
+    EXPECT_EQ(write(scene).warnings.size(), 4U);
+}
+
+TEST(ObjWrite, warns_of_what_a_gltf_has_and_obj_cannot_hold) {
+    test::GltfBuilder builder = test::square();
+    test::Json& json = builder.json;
+    test::Json& primitives = json["meshes"][0]["primitives"];
+    for (const int mode : {0, 1}) {
+        primitives.push_back(primitives[0]);
+        primitives.back()["mode"] = mode;
+    }
+    json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+    json["extensionsUsed"] = {"KHR_lights_punctual", "EXT_mesh_gpu_instancing", "KHR_texture_transform"};
+    json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    json["textures"] = {test::Json::object()};
+    json["materials"] = {{{"emissiveTexture",
+                           {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"rotation", 1}}}}}}}}};
+    const size_t times = builder.add<float>({0, 1}, 5126, "SCALAR", 1, {{"min", {0}}, {"max", {1}}});
+    const size_t moves = builder.add<float>({0, 0, 0, 1, 2, 3}, 5126, "VEC3", 3);
+    json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", moves}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+    test::Json& node = json["nodes"][0];
+    node["camera"] = 0;
+    node["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["_ID"] =
+        builder.add<float>({7}, 5126, "SCALAR", 1);
+
+    std::vector<std::string> told;
+    for (const Warning& warning : write(test::read(builder)).warnings) told.push_back(warning.message);
+    for (const char* what : {"cameras", "lights", "animations", "points", "lines", "transforms of textures",
+                             "attributes of instances"})
+        EXPECT_THAT(told, testing::Contains("OBJ holds no " + std::string(what)));
 }
 
 TEST(ObjWrite, leaves_out_vertices_that_no_triangle_uses) {

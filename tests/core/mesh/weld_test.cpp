@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
+
 #include "core/base/error.h"
 
 namespace coppice {
@@ -27,6 +29,27 @@ TEST(Weld, merges_equal_positions_and_their_equal_wedges) {
     EXPECT_TRUE(is_consistent(mesh));
     EXPECT_EQ(mesh.vertex_count(), 4);
     EXPECT_THAT(mesh.triangles, ElementsAre(0, 1, 2, 0, 2, 3));
+}
+
+TEST(Weld, takes_no_quadratic_time_for_slots_with_attributes_of_their_own) {
+    Mesh mesh;
+    constexpr uint32_t slots = 50'000;
+    constexpr size_t bits = 16;
+    mesh.attributes.assign(bits, {.name = "_A", .components = 1, .values = std::vector<float>(3 * slots)});
+    for (uint32_t s = 0; s < slots; ++s) {
+        for (const float x : {0.0F, 1.0F, 2.0F}) mesh.positions.push_back({x, static_cast<float>(s), x * x});
+        for (uint32_t c = 0; c < 3; ++c) {
+            mesh.wedge_vertex.push_back(3 * s + c);
+            mesh.triangles.push_back(3 * s + c);
+        }
+        mesh.triangle_slot.push_back(s);
+        mesh.slots.emplace_back();
+        for (size_t bit = 0; bit < bits; ++bit) mesh.slots[s].has_attribute.push_back((s >> bit & 1) != 0);
+    }
+    const auto start = std::chrono::steady_clock::now();
+    weld(mesh);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+    EXPECT_EQ(mesh.wedge_count(), 3 * slots);
 }
 
 TEST(Weld, takes_minus_zero_for_zero) {

@@ -70,6 +70,39 @@ TEST(SceneBounds, are_those_of_all_instances) {
     EXPECT_EQ(box.max, (Vec3d{213, 1, 0}));
 }
 
+// Positions on a lattice, so that they are no box and no ball, placed as a hash of the index says.
+TEST(SceneBounds, are_those_of_every_position_of_thousands_of_instances) {
+    Scene scene = three_triangles();
+    scene.nodes.clear();
+    scene.roots.clear();
+    scene.meshes[0].positions = {{0, 0, 0}, {3, 1, 0}, {0, 1, 2}, {-1, -2, 1}, {1, 1, -4}};
+    uint32_t state = 1;
+    const auto next = [&state] { return ((state = state * 1664525 + 1013904223) >> 8) / 16777216.0; };
+    for (int i = 0; i < 5000; ++i)
+        add_node(scene, {},
+                 from_trs({10 * next(), 10 * next(), 0}, {next(), next(), next(), next()},
+                          {1 + next(), 1 + next(), 1 + next()}),
+                 0);
+    Bounds exact;
+    for (const Instance& instance : instances(scene))
+        for (const Vec3f& position : scene.meshes[0].positions)
+            exact.extend(instance.world.point(to_double(position)));
+    const Bounds box = scene_bounds(scene);
+    const double tolerance = 1e-9 * exact.diagonal();
+    EXPECT_LE(length(box.min - exact.min), 2 * tolerance);
+    EXPECT_LE(length(box.max - exact.max), 2 * tolerance);
+}
+
+TEST(UnfoldBatches, lists_the_same_instances_in_the_same_order) {
+    Scene scene = three_triangles();
+    add_node(scene, 2, move_x(5), 0);  // a child of the node with the batch
+    const std::vector<Instance> before = instances(scene);
+    unfold_batches(scene);
+    const std::vector<Instance> after = instances(scene);
+    ASSERT_EQ(after.size(), before.size());
+    for (size_t i = 0; i < after.size(); ++i) EXPECT_EQ(after[i].world, before[i].world) << i;
+}
+
 TEST(ExpandMeshes, gives_each_instance_a_mesh_of_its_own_where_it_stood) {
     const Scene expanded = expand_meshes(three_triangles());
     const std::vector<Instance> all = instances(expanded);

@@ -1,0 +1,20 @@
+// How large a Draco stream says its mesh is.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/base/bytes.h"
+
+namespace coppice::gltf {
+
+struct DracoSizes {
+    uint32_t triangles = 0;
+    uint32_t vertices = 0;  // attributes with seams may still split them
+};
+
+// Of a stream of triangles; none for anything else. The decoder allocates what the stream says before it
+// finds out whether that is there.
+std::optional<DracoSizes> draco_sizes(ByteView stream);
+
+}  // namespace coppice::gltf
