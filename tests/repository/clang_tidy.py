@@ -59,10 +59,15 @@ def key_of(root, command, paths):
     return digest.hexdigest()
 
 
-def check(build, source):
+def without_precompiled_headers(command):
+    """g++'s precompiled headers are nothing that clang could read, and every source must do without them."""
+    return re.sub(r" -Winvalid-pch| -fpch-preprocess| -include \S+/cmake_pch\.hxx", "", command)
+
+
+def check(database, source):
     done = subprocess.run(
         # g++ knows warnings that clang does not, and clang finds g++'s command line otherwise fit
-        ["clang-tidy", "-p", str(build), "--quiet", "--extra-arg=-Wno-unknown-warning-option",
+        ["clang-tidy", "-p", str(database), "--quiet", "--extra-arg=-Wno-unknown-warning-option",
          "--extra-arg=-Wno-ignored-optimization-argument", source],
         capture_output=True, text=True, check=False,
     )
@@ -80,12 +85,16 @@ def main(root, build, everything):
     passed_before = build / "clang-tidy"
     passed_before.mkdir(exist_ok=True)
     todo = []
-    for entry in json.loads((build / "compile_commands.json").read_text()):
+    entries = json.loads((build / "compile_commands.json").read_text())
+    for entry in entries:
+        entry["command"] = without_precompiled_headers(entry["command"])
+    (passed_before / "compile_commands.json").write_text(json.dumps(entries))
+    for entry in entries:
         source = os.path.normpath(os.path.join(entry["directory"], entry["file"]))
         name = os.path.relpath(source, root)
         if not name.startswith(FOLDERS):
             continue
-        command = entry.get("command", "")
+        command = entry["command"]
         output = entry.get("output") or re.search(r" -o (\S+)", command).group(1)
         output = os.path.relpath(os.path.join(entry["directory"], output), build)
         paths = [source] + depends.get(output, [])
@@ -97,7 +106,7 @@ def main(root, build, everything):
     print(f"{len(todo)} sources to check, {len(todo) - len(waiting)} of them passed before", flush=True)
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for (name, _, stamp), (code, text) in zip(waiting, pool.map(lambda item: check(build, item[1]), waiting)):
+        for (name, _, stamp), (code, text) in zip(waiting, pool.map(lambda item: check(passed_before, item[1]), waiting)):
             if code == 0:
                 stamp.touch()
             else:
