@@ -8,41 +8,14 @@
 #include "core/format/gltf/parsed.h"
 #include "core/format/gltf/read_primitive.h"
 #include "core/format/gltf/semantics.h"
+#include "core/format/gltf/slot_geometry.h"
 
 namespace coppice::gltf {
 
 namespace {
 
-constexpr uint32_t unused = UINT32_MAX;
-
 // Extensions of a primitive that describe its triangles as they were, and mean nothing for others.
 constexpr const char* geometry_extensions[] = {"FB_ngon_encoding", "CESIUM_primitive_outline"};
-
-// The wedges of one slot, in the order in which its triangles use them.
-struct SlotGeometry {
-    std::vector<uint32_t> wedges;
-    std::vector<uint32_t> indices;
-};
-
-std::vector<SlotGeometry> slot_geometries(const Mesh& mesh) {
-    std::vector<SlotGeometry> out(mesh.slots.size());
-    std::vector<std::vector<uint32_t>> triangles(mesh.slots.size());
-    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) triangles[mesh.triangle_slot[t]].push_back(t);
-    std::vector<uint32_t> index_of(mesh.wedge_count());
-    std::vector<uint32_t> owner(mesh.wedge_count(), unused);  // the slot that index_of is for
-    for (uint32_t slot = 0; slot < out.size(); ++slot)
-        for (const uint32_t t : triangles[slot])
-            for (size_t c = 0; c < 3; ++c) {
-                const uint32_t wedge = mesh.triangles[3 * size_t{t} + c];
-                if (owner[wedge] != slot) {
-                    owner[wedge] = slot;
-                    index_of[wedge] = static_cast<uint32_t>(out[slot].wedges.size());
-                    out[slot].wedges.push_back(wedge);
-                }
-                out[slot].indices.push_back(index_of[wedge]);
-            }
-    return out;
-}
 
 // Owns the bytes that an accessor is a window into.
 struct Values {
@@ -88,28 +61,38 @@ class PrimitiveWriter {
     }
 
     // source: the primitive's object in the source, or an empty object.
-    Json write(uint32_t slot, const SlotGeometry& geometry, Json source) {
+    Json write(uint32_t slot, const SlotGeometries::Slot& geometry, Json source) {
         Json primitive = std::move(source);
         for (const char* replaced : {"attributes", "indices", "targets", "mode", "material"})
             primitive.erase(replaced);
         drop_extensions(primitive);
         if (mesh_.slots[slot].material) primitive["material"] = *mesh_.slots[slot].material;
-        primitive["attributes"]["POSITION"] = positions(geometry);
-        for (size_t a = 0; a < mesh_.attributes.size(); ++a) {
-            const Attribute& attribute = mesh_.attributes[a];
-            if (!has(slot, a) || !is_storable(attribute)) continue;
-            primitive["attributes"][attribute.name] = values(attribute, geometry, false);
-        }
-        for (const MorphTarget& target : mesh_.morph_targets)
-            primitive["targets"].push_back(deltas(target, slot, geometry));
+        const auto [buffer, is_new] = buffers_.try_emplace(geometry.wedges);
+        if (is_new) buffer->second = write_buffer(slot, *geometry.wedges);
+        primitive["attributes"] = buffer->second.attributes;
+        if (!buffer->second.targets.empty()) primitive["targets"] = buffer->second.targets;
         primitive["indices"] = indices(geometry);
         return primitive;
     }
 
   private:
-    bool has(uint32_t slot, size_t attribute) const {
-        const auto& flags = mesh_.slots[slot].has_attribute;
-        return flags.empty() || flags[attribute];
+    struct VertexBuffer {
+        Json attributes = Json::object();
+        Json targets = Json::array();
+    };
+
+    // slot: one of those that use the buffer; all have the same attributes.
+    VertexBuffer write_buffer(uint32_t slot, const std::vector<uint32_t>& wedges) {
+        VertexBuffer buffer;
+        buffer.attributes["POSITION"] = positions(wedges);
+        for (size_t a = 0; a < mesh_.attributes.size(); ++a) {
+            const Attribute& attribute = mesh_.attributes[a];
+            if (!has_attribute(mesh_, slot, a) || !is_storable(attribute)) continue;
+            buffer.attributes[attribute.name] = values(attribute, wedges, false);
+        }
+        for (const MorphTarget& target : mesh_.morph_targets)
+            buffer.targets.push_back(deltas(target, slot, wedges));
+        return buffer;
     }
 
     static bool is_storable(const Attribute& attribute) {
@@ -127,47 +110,46 @@ class PrimitiveWriter {
         if (extensions.empty()) primitive.erase("extensions");
     }
 
-    uint32_t positions(const SlotGeometry& geometry) {
+    uint32_t positions(const std::vector<uint32_t>& wedges) {
         const Storage storage =
             allowed_storage("POSITION", 3, mesh_.position_storage, false, context_.quantization);
         const Values encoded_positions =
-            encode_values(3, storage, geometry.wedges.size(), [&](uint64_t i, uint32_t c) -> double {
-                const Vec3f& p = mesh_.positions[mesh_.wedge_vertex[geometry.wedges[i]]];
+            encode_values(3, storage, wedges.size(), [&](uint64_t i, uint32_t c) -> double {
+                const Vec3f& p = mesh_.positions[mesh_.wedge_vertex[wedges[i]]];
                 return c == 0 ? p.x : c == 1 ? p.y : p.z;
             });
         return context_.buffer.add(encoded_positions.accessor, BufferWriter::Kind::vertices, true);
     }
 
-    uint32_t values(const Attribute& attribute, const SlotGeometry& geometry, bool is_delta) {
+    uint32_t values(const Attribute& attribute, const std::vector<uint32_t>& wedges, bool is_delta) {
         const Storage storage = allowed_storage(attribute.name, attribute.components, attribute.storage,
                                                 is_delta, context_.quantization);
         const Values encoded_values = encode_values(
-            attribute.components, storage, geometry.wedges.size(), [&](uint64_t i, uint32_t c) -> double {
-                return attribute.values[size_t{geometry.wedges[i]} * attribute.components + c];
+            attribute.components, storage, wedges.size(), [&](uint64_t i, uint32_t c) -> double {
+                return attribute.values[size_t{wedges[i]} * attribute.components + c];
             });
         return context_.buffer.add(encoded_values.accessor, BufferWriter::Kind::vertices,
                                    is_delta && attribute.name == "POSITION");
     }
 
-    Json deltas(const MorphTarget& target, uint32_t slot, const SlotGeometry& geometry) {
+    Json deltas(const MorphTarget& target, uint32_t slot, const std::vector<uint32_t>& wedges) {
         Json out = Json::object();
         for (const Attribute& delta : target.deltas) {
             const auto base = attributes_.find(delta.name);
-            const bool has_base =
-                delta.name == "POSITION" || (base != attributes_.end() && has(slot, base->second));
-            if (has_base && is_storable(delta)) out[delta.name] = values(delta, geometry, true);
+            const bool has_base = delta.name == "POSITION" ||
+                                  (base != attributes_.end() && has_attribute(mesh_, slot, base->second));
+            if (has_base && is_storable(delta)) out[delta.name] = values(delta, wedges, true);
         }
         // A target without any delta is not allowed; one of zeros is.
         if (out.empty()) {
             Attribute zeros{"POSITION", 3, {}, std::vector<float>(3 * mesh_.wedge_count())};
-            out["POSITION"] = values(zeros, geometry, true);
+            out["POSITION"] = values(zeros, wedges, true);
         }
         return out;
     }
 
-    uint32_t indices(const SlotGeometry& geometry) {
-        // 65535 restarts primitives, so it is no index.
-        const bool is_short = geometry.wedges.size() <= 65535;
+    uint32_t indices(const SlotGeometries::Slot& geometry) {
+        const bool is_short = geometry.wedges->size() <= largest_short_count;
         const Values encoded_indices = encode_values(
             1, {is_short ? ComponentType::uint16 : ComponentType::uint32, false}, geometry.indices.size(),
             [&](uint64_t i, uint32_t) -> double { return geometry.indices[i]; });
@@ -176,7 +158,8 @@ class PrimitiveWriter {
 
     const Mesh& mesh_;
     MeshContext& context_;
-    std::unordered_map<std::string_view, size_t> attributes_;  // of the mesh, by name
+    std::unordered_map<std::string_view, size_t> attributes_;                 // of the mesh, by name
+    std::unordered_map<const std::vector<uint32_t>*, VertexBuffer> buffers_;  // written, by their wedges
 };
 
 // Points, lines, and what has no positions: as it was, with accessors of the result.
@@ -237,8 +220,8 @@ Json write_mesh(const Mesh& mesh, const Json* source, MeshContext& context) {
     Json primitives = Json::array();
     const auto write_slots = [&](const Mesh& of) {
         PrimitiveWriter writer(of, context);
-        const std::vector<SlotGeometry> geometries = slot_geometries(of);
-        for (uint32_t slot = 0; slot < geometries.size(); ++slot)
+        const SlotGeometries geometries(of);
+        for (uint32_t slot = 0; slot < of.slots.size(); ++slot)
             if (!geometries[slot].indices.empty())
                 primitives.push_back(
                     writer.write(slot, geometries[slot], source_primitive(source, of.slots[slot])));

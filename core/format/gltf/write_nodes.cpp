@@ -95,10 +95,10 @@ class NodeWriter {
             json.erase("children");
             if (!node.children.empty()) json["children"] = node.children;
         }
+        json.erase("mesh");
         Json* carrier = &json;  // which has mesh and children
         if (was == nullptr || was->local != node.local)
             carrier = place(json, node.local, pointer("nodes", i));
-        carrier->erase("mesh");
         if (node.mesh)
             (*carrier)["mesh"] = *node.mesh;
         else

@@ -72,6 +72,41 @@ TEST(GltfWrite, stores_attributes_as_they_were) {
     EXPECT_EQ(uv->values, scene.meshes[0].find_attribute("TEXCOORD_0")->values);
 }
 
+// A square of two triangles, each a slot of its own.
+Scene square_of_two_slots() {
+    Scene scene = test::read(square());
+    scene.source = nullptr;
+    scene.meshes[0].slots.resize(2);
+    scene.meshes[0].triangle_slot = {0, 1};
+    return scene;
+}
+
+TEST(GltfWrite, stores_once_what_primitives_have_in_common) {
+    const Scene scene = square_of_two_slots();
+    const Json out = written_json(scene);
+    const Json& primitives = out["meshes"][0]["primitives"];
+    ASSERT_THAT(primitives, SizeIs(2));
+    EXPECT_EQ(primitives[0]["attributes"], primitives[1]["attributes"]);
+    EXPECT_NE(primitives[0]["indices"], primitives[1]["indices"]);
+    EXPECT_EQ(out["accessors"][primitives[0]["attributes"]["POSITION"].get<size_t>()]["count"], 4);
+    const Mesh again = read_again(scene).meshes[0];
+    EXPECT_EQ(again.vertex_count(), 4U);
+    EXPECT_EQ(again.triangle_slot, scene.meshes[0].triangle_slot);
+}
+
+TEST(GltfWrite, stores_apart_what_has_other_attributes) {
+    Scene scene = square_of_two_slots();
+    Mesh& mesh = scene.meshes[0];
+    mesh.attributes = {
+        {.name = "COLOR_0", .components = 3, .values = std::vector<float>(3 * mesh.wedge_count(), 0.5F)}};
+    mesh.slots[1].has_attribute = {false};
+    const Json out = written_json(scene);
+    const Json& primitives = out["meshes"][0]["primitives"];
+    EXPECT_TRUE(primitives[0]["attributes"].contains("COLOR_0"));
+    EXPECT_FALSE(primitives[1]["attributes"].contains("COLOR_0"));
+    EXPECT_EQ(out["accessors"][primitives[1]["attributes"]["POSITION"].get<size_t>()]["count"], 3);
+}
+
 TEST(GltfWrite, passes_points_and_animations_through) {
     GltfBuilder builder = square();
     Json points = builder.json["meshes"][0]["primitives"][0];

@@ -1,0 +1,88 @@
+#include "core/format/gltf/slot_geometry.h"
+
+#include <map>
+
+namespace coppice::gltf {
+
+namespace {
+
+constexpr uint32_t none = UINT32_MAX;
+
+// In the order of the first slot of each kind.
+std::vector<std::vector<uint32_t>> slots_with_the_same_attributes(const Mesh& mesh) {
+    std::map<std::vector<bool>, size_t> kinds;
+    std::vector<std::vector<uint32_t>> slots;
+    for (uint32_t slot = 0; slot < mesh.slots.size(); ++slot) {
+        std::vector<bool> has = mesh.slots[slot].has_attribute;
+        if (has.empty()) has.assign(mesh.attributes.size(), true);
+        const auto [kind, is_new] = kinds.try_emplace(std::move(has), slots.size());
+        if (is_new) slots.emplace_back();
+        slots[kind->second].push_back(slot);
+    }
+    return slots;
+}
+
+}  // namespace
+
+bool has_attribute(const Mesh& mesh, uint32_t slot, size_t attribute) {
+    const std::vector<bool>& has = mesh.slots[slot].has_attribute;
+    return has.empty() || has[attribute];
+}
+
+SlotGeometries::SlotGeometries(const Mesh& mesh)
+    : mesh_(mesh),
+      slots_(mesh.slots.size()),
+      triangles_(mesh.slots.size()),
+      seen_(mesh.wedge_count(), {none, none, none, none}) {
+    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) triangles_[mesh.triangle_slot[t]].push_back(t);
+    for (const std::vector<uint32_t>& slots : slots_with_the_same_attributes(mesh)) {
+        if (pays_to_share(slots)) {
+            fill_buffer(slots);
+        } else {
+            for (const uint32_t slot : slots) fill_buffer({&slot, 1});
+        }
+    }
+}
+
+template <typename Visit>
+void SlotGeometries::each_wedge(uint32_t slot, const Visit& visit) const {
+    for (const uint32_t t : triangles_[slot])
+        for (size_t corner = 0; corner < 3; ++corner) visit(mesh_.triangles[3 * size_t{t} + corner]);
+}
+
+// Not where longer indices would take more bytes than shared vertices save.
+bool SlotGeometries::pays_to_share(std::span<const uint32_t> slots) {
+    size_t apart = 0, together = 0, indices = 0;
+    for (const uint32_t slot : slots) {
+        each_wedge(slot, [&](uint32_t wedge) {
+            Seen& seen = seen_[wedge];
+            together += seen.kind != slots.front() ? 1 : 0;
+            apart += seen.slot != slot ? 1 : 0;
+            seen.kind = slots.front();
+            seen.slot = slot;
+            ++indices;
+        });
+    }
+    const size_t saved = (apart - together) * sizeof(Vec3f);  // at least: each has a position
+    const size_t longer = together > largest_short_count ? indices * sizeof(uint16_t) : 0;
+    return saved > longer;
+}
+
+void SlotGeometries::fill_buffer(std::span<const uint32_t> slots) {
+    const auto buffer = static_cast<uint32_t>(buffers_.size());
+    std::vector<uint32_t>& wedges = buffers_.emplace_back();
+    for (const uint32_t slot : slots) {
+        slots_[slot].wedges = &wedges;
+        each_wedge(slot, [&](uint32_t wedge) {
+            Seen& seen = seen_[wedge];
+            if (seen.buffer != buffer) {
+                seen.buffer = buffer;
+                seen.index = static_cast<uint32_t>(wedges.size());
+                wedges.push_back(wedge);
+            }
+            slots_[slot].indices.push_back(seen.index);
+        });
+    }
+}
+
+}  // namespace coppice::gltf
