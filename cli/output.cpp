@@ -36,8 +36,8 @@ bool is_beside(const NamedFile& file, const fs::path& path) {
 // OUT.bin and OUT.mtl are ours to replace; a texture has the name that the asset gave it.
 void require_free(const NamedFile& file, const fs::path& place, const std::string& stem) {
     const std::optional<Bytes> there = read_file(place);
-    require(!there || file.path.starts_with(stem + ".") || *there == file.bytes, ErrorCode::storage_failed,
-            place.string(),
+    const bool is_ours = file.path == stem + ".bin" || file.path == stem + ".mtl";
+    require(!there || is_ours || *there == file.bytes, ErrorCode::storage_failed, place.string(),
             "{} cannot be written: another file is there; write into another folder, or to a .zip",
             place.string());
 }

@@ -6,6 +6,11 @@ target_compile_options(coppice_options INTERFACE
     -Wno-restrict            # g++ 12 fires falsely on string concatenation
     -ffp-contract=off        # the same bits on every machine
     -fstack-protector-strong)
+if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # With precompiled headers it fires in these ways too. Newer compilers still look for them.
+    target_compile_options(coppice_options INTERFACE
+        -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+endif()
 target_compile_definitions(coppice_options INTERFACE
     _GLIBCXX_ASSERTIONS
     COPPICE_VERSION="${PROJECT_VERSION}")

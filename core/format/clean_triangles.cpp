@@ -8,21 +8,22 @@ namespace coppice {
 
 void clean_triangles(Scene& scene, const Watch& watch) {
     for (Mesh& mesh : scene.meshes) {
-        const CleanedTriangles cleaned = drop_degenerate_and_duplicate(mesh, watch);
-        if (cleaned.degenerate + cleaned.duplicate == 0) continue;
-        drop_unused(mesh, watch);
-        const std::string where = fmt::format("mesh \"{}\"", mesh.name);
-        if (cleaned.degenerate > 0)
-            scene.warnings.push_back({"repair.degenerate_triangles",
-                                      fmt::format("{} degenerate triangles of mesh \"{}\" were dropped",
-                                                  cleaned.degenerate, mesh.name),
-                                      where});
-        if (cleaned.duplicate > 0)
-            scene.warnings.push_back({"repair.duplicate_triangles",
-                                      fmt::format("{} duplicate triangles of mesh \"{}\" were dropped",
-                                                  cleaned.duplicate, mesh.name),
-                                      where});
+        const std::string name = fmt::format("mesh \"{}\"", mesh.name);
+        clean_triangles(mesh, name, name, scene.warnings, watch);
     }
+}
+
+void clean_triangles(Mesh& mesh, const std::string& name, const std::string& where,
+                     std::vector<Warning>& warnings, const Watch& watch) {
+    const CleanedTriangles cleaned = drop_degenerate_and_duplicate(mesh, watch);
+    if (cleaned.degenerate + cleaned.duplicate > 0) drop_unused(mesh, watch);
+    const auto warn = [&](const char* kind, size_t count) {
+        if (count == 0) return;
+        warnings.push_back({fmt::format("repair.{}_triangles", kind),
+                            fmt::format("{} {} triangles of {} were dropped", count, kind, name), where});
+    };
+    warn("degenerate", cleaned.degenerate);
+    warn("duplicate", cleaned.duplicate);
 }
 
 }  // namespace coppice

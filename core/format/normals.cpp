@@ -37,7 +37,7 @@ std::vector<bool> wedges_with(const Mesh& mesh, size_t attribute) {
     std::vector<bool> with(mesh.wedge_count());
     for (size_t i = 0; i < mesh.triangles.size(); ++i) {
         const MaterialSlot& slot = mesh.slots[mesh.triangle_slot[i / 3]];
-        if (slot.has_attribute.empty() || slot.has_attribute[attribute]) with[mesh.triangles[i]] = true;
+        if (slot.has(attribute)) with[mesh.triangles[i]] = true;
     }
     return with;
 }

@@ -55,6 +55,8 @@ struct MaterialSlot {
     std::optional<uint32_t> material = {};          // index into Scene::materials; none: the format's default
     std::vector<bool> has_attribute = {};           // per attribute of the mesh; empty: has all
     std::optional<uint32_t> source_primitive = {};  // index in the source's mesh, for what is passed through
+
+    bool has(size_t attribute) const { return has_attribute.empty() || has_attribute[attribute]; }
 };
 
 struct Mesh {

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <random>
 #include <unordered_map>
 
 #include "core/base/watched_loop.h"
@@ -27,16 +28,19 @@ uint32_t bits_of(float value) {
 }
 
 // Numbers items 0..count by first occurrence among equals: result[i] is the group of i, groups ascend by
-// first member. An open-addressing table of item indices: one allocation, no keys.
+// first member. An open-addressing table of item indices: one allocation, no keys. hash(seed, i) starts from
+// a seed that no file can know, or one could be made whose items all meet in one place of the table. No
+// result depends on it.
 template <typename Hash, typename Equal>
 std::vector<uint32_t> group_equal(size_t count, Hash hash, Equal equal, std::vector<uint32_t>& first_of_group,
                                   const Watch& watch) {
     const size_t size = std::bit_ceil(count + count / 2 + 1);
     std::vector<uint32_t> table(size, none);
     std::vector<uint32_t> group(count);
+    const uint64_t seed = std::random_device()();
     first_of_group.clear();
     watched_loop(count, watch, [&](size_t i) {
-        size_t at = hash(i) & (size - 1);
+        size_t at = hash(seed, i) & (size - 1);
         while (table[at] != none && !equal(first_of_group[table[at]], i)) at = (at + 1) & (size - 1);
         if (table[at] == none) {
             table[at] = static_cast<uint32_t>(first_of_group.size());
@@ -84,9 +88,9 @@ void weld_vertices(Mesh& mesh, const Watch& watch) {
     std::vector<uint32_t> first;
     const std::vector<uint32_t> group = group_equal(
         positions.size(),
-        [&](size_t i) {
+        [&](uint64_t seed, size_t i) {
             const uint64_t xy = uint64_t{bits_of(positions[i].x)} << 32 | bits_of(positions[i].y);
-            return mix(mix(0, xy), bits_of(positions[i].z));
+            return mix(mix(seed, xy), bits_of(positions[i].z));
         },
         [&](size_t a, size_t b) { return positions[a] == positions[b]; }, first, watch);
     keep_items(mesh.positions, 1, first, watch);
@@ -116,8 +120,8 @@ void weld_wedges(Mesh& mesh, const Watch& watch) {
     std::vector<uint32_t> first;
     const std::vector<uint32_t> group = group_equal(
         mesh.wedge_count(),
-        [&](size_t w) {
-            uint64_t hash = mix(mesh.wedge_vertex[w], wedge_class[w]);
+        [&](uint64_t seed, size_t w) {
+            uint64_t hash = mix(mix(seed, mesh.wedge_vertex[w]), wedge_class[w]);
             for (const Attribute* stream : all) {
                 for (uint32_t c = 0; c < stream->components; ++c) {
                     hash = mix(hash, bits_of(stream->values[w * stream->components + c]));
@@ -186,8 +190,7 @@ size_t drop_duplicate(Mesh& mesh, const Watch& watch) {
     std::vector<uint32_t> first;
     group_equal(
         mesh.triangle_count(),
-        [&](size_t t) {
-            uint64_t hash = 0;
+        [&](uint64_t hash, size_t t) {
             for (const uint32_t part : identity(mesh, t)) hash = mix(hash, part);
             return hash;
         },

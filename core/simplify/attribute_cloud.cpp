@@ -29,18 +29,13 @@ std::vector<double> wedge_areas(const CollapseMesh& mesh, const Watch& watch) {
     return areas;
 }
 
-bool has_attribute(const Mesh& source, uint32_t slot, size_t attribute) {
-    const std::vector<bool>& has = source.slots[slot].has_attribute;
-    return has.empty() || has[attribute];
-}
-
 // sqrt(sum of areas in space / sum of areas in the UV plane); 0 where the UV plane has none.
 double uv_length(const CollapseMesh& mesh, const Mesh& source, size_t attribute, const Watch& watch) {
     double in_space = 0, in_plane = 0;
     const Attribute& uv = source.attributes[attribute];
     watched_loop(mesh.triangle_count(), watch, [&](size_t i) {
         const auto t = static_cast<uint32_t>(i);
-        if (!mesh.is_live_triangle(t) || !has_attribute(source, source.triangle_slot[t], attribute)) return;
+        if (!mesh.is_live_triangle(t) || !source.slots[source.triangle_slot[t]].has(attribute)) return;
         const auto value = [&](uint32_t corner, uint32_t axis) {
             return double{uv.values[size_t{source.triangles[3 * t + corner]} * uv.components + axis]};
         };
@@ -117,7 +112,7 @@ void AttributeClouds::fill(const CollapseMesh& mesh, const Mesh& source, size_t 
         const auto w = static_cast<uint32_t>(i);
         double* value = values_.data() + w * value_stride_ + channel.value_offset;
         double* cloud = clouds_.data() + w * cloud_stride_ + channel.cloud_offset;
-        const double weight = has_attribute(source, mesh.wedge_slot(w), attribute) ? wedge_areas[w] : 0.0;
+        const double weight = source.slots[mesh.wedge_slot(w)].has(attribute) ? wedge_areas[w] : 0.0;
         double squared = 0;
         for (uint32_t k = 0; k < n; ++k) {
             value[k] = scale * double{from[size_t{mesh.wedge_source(w)} * n + k]};

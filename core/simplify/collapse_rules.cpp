@@ -116,6 +116,8 @@ bool CollapseRules::keeps_topology(uint32_t removed, uint32_t kept) {
     for (uint32_t i = 0; i < shared_.size(); ++i) {
         const uint32_t x = around_removed_.all()[i];
         if (x == kept) continue;
+        if (!gather_kept && mesh_.valence(x) > largest_removable_valence)
+            return false;  // two hubs: too long to search
         const uint32_t to_kept = edge_uses(x, kept, gather_kept);
         if (to_kept == 0) continue;
         if (shared_[i] == 0) return false;
@@ -145,6 +147,7 @@ bool CollapseRules::duplicates(uint32_t removed, uint32_t kept) {
         if (a == kept || b == kept) continue;
         if (shared_[around_removed_.find(a)] == 0 || shared_[around_removed_.find(b)] == 0) continue;
         if (mesh_.valence(b) < mesh_.valence(a)) std::swap(a, b);
+        if (mesh_.valence(a) > largest_removable_valence) return true;  // not known, and too long to search
         for (uint32_t d = mesh_.first_corner(a); d != no_index; d = mesh_.corner_after(d)) {
             const uint32_t e = mesh_.corner_vertex(CollapseMesh::next_corner(d));
             const uint32_t f = mesh_.corner_vertex(CollapseMesh::previous_corner(d));
@@ -154,7 +157,7 @@ bool CollapseRules::duplicates(uint32_t removed, uint32_t kept) {
     return false;
 }
 
-// Mean cosine between a normal of any length and where the surface faced at the corners that know.
+// Mean cosine between a normal, of any length but none, and where the surface faced at the corners that know.
 double CollapseRules::agreement_with_corners(Vec3d normal, const std::array<uint32_t, 3>& corners) const {
     double sum = 0, known = 0;
     for (const uint32_t corner : corners) {
@@ -186,7 +189,8 @@ bool CollapseRules::keeps_orientation(uint32_t removed, uint32_t kept) const {
         if (first != Vec3f{} && dot(to_double(first), after) < least_cosine_since_start * size) return false;
         const double agreement = agreement_with_corners(after, {kept, next, previous});
         if (agreement < least_cosine_to_corners &&
-            agreement < agreement_with_corners(before, {removed, next, previous})) {
+            (is_degenerate(from, a, b, before) ||
+             agreement < agreement_with_corners(before, {removed, next, previous}))) {
             return false;
         }
     }

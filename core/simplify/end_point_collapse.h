@@ -30,8 +30,9 @@ struct EndPointOptions {
     PlaneWeights weights = PlaneWeights::area;
     AttributeScales scales = {};
     bool lock_sharp_borders = false;
-    std::span<const Transform> instances = {};       // how far errors reach in the world; see InstanceMetric
-    std::optional<double> max_geometric_error = {};  // Gamma, mesh units: dearer pairs are no candidates
+    std::span<const Transform> instances = {};  // how far errors reach in the world; see InstanceMetric
+    // Gamma, in mesh units and the instances' proportions: dearer pairs are no candidates.
+    std::optional<double> max_geometric_error = {};
 };
 
 // Moving a vertex onto a neighbour, and what that costs. Ordered by error, then by the neighbour.

@@ -46,7 +46,9 @@ std::span<const Parameter> parameters() {
          .unit = "mesh units",
          .minimum = 0},
         {.id = "max_geometric_error",
-         .title = "edges whose geometric error is larger are not collapsed; none unless given",
+         .title =
+             "edges whose geometric error is larger, in the proportions that instances give the mesh, are "
+             "not collapsed; none unless given",
          .unit = "mesh units",
          .minimum = 0,
          .ends_run = true},

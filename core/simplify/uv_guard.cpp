@@ -26,7 +26,6 @@ UvGuard::UvGuard(const CollapseMesh& mesh, const Mesh& source, const Watch& watc
     }
     sets_ = static_cast<uint32_t>(sets.size());
     uvs_.resize(size_t{mesh.wedge_count()} * sets_);
-    windings_.resize(size_t{mesh.triangle_count()} * sets_);
     around_.resize(uvs_.size(), unseen);
     for (uint32_t set = 0; set < sets_; ++set) add_set(mesh, *sets[set], set, watch);
 }
@@ -38,10 +37,9 @@ void UvGuard::add_set(const CollapseMesh& mesh, const Attribute& uvs, uint32_t s
     });
     watched_loop(mesh.triangle_count(), watch, [&](size_t t) {
         const auto corner = static_cast<uint32_t>(3 * t);
-        const std::array wedges = {mesh.corner_wedge(corner), mesh.corner_wedge(corner + 1),
-                                   mesh.corner_wedge(corner + 2)};
-        const int8_t wound = winding(uv(wedges[0], set), uv(wedges[1], set), uv(wedges[2], set));
-        windings_[t * sets_ + set] = wound;
+        const Wedges wedges = {mesh.corner_wedge(corner), mesh.corner_wedge(corner + 1),
+                               mesh.corner_wedge(corner + 2)};
+        const int8_t wound = winding(wedges, set);
         for (const uint32_t wedge : wedges) {
             int8_t& around = around_[size_t{mesh.wedge_chart(wedge)} * sets_ + set];
             around = around == unseen || around == wound ? wound : int8_t{0};
@@ -49,7 +47,8 @@ void UvGuard::add_set(const CollapseMesh& mesh, const Attribute& uvs, uint32_t s
     });
 }
 
-int8_t UvGuard::winding(Uv a, Uv b, Uv c) {
+int8_t UvGuard::winding(const Wedges& wedges, uint32_t set) const {
+    const Uv a = uv(wedges[0], set), b = uv(wedges[1], set), c = uv(wedges[2], set);
     const double abu = double{b.u} - double{a.u}, abv = double{b.v} - double{a.v};
     const double acu = double{c.u} - double{a.u}, acv = double{c.v} - double{a.v};
     const double bcu = acu - abu, bcv = acv - abv;
@@ -65,23 +64,22 @@ bool UvGuard::may_collapse(uint32_t removed, uint32_t kept, const std::vector<ui
     for (uint32_t c = mesh_.first_corner(removed); c != no_index; c = mesh_.corner_after(c)) {
         const uint32_t next = CollapseMesh::next_corner(c), previous = CollapseMesh::previous_corner(c);
         if (mesh_.corner_vertex(next) == kept || mesh_.corner_vertex(previous) == kept) continue;
-        const std::array wedges = {wedge_map[mesh_.corner_wedge(c) - first], mesh_.corner_wedge(next),
-                                   mesh_.corner_wedge(previous)};
+        const Wedges before = {mesh_.corner_wedge(c), mesh_.corner_wedge(next), mesh_.corner_wedge(previous)};
+        const Wedges after = {wedge_map[before[0] - first], before[1], before[2]};
         for (uint32_t set = 0; set < sets_; ++set) {
-            if (!keeps_winding(c / 3, set, wedges)) return false;
+            if (!keeps_winding(before, after, set)) return false;
         }
     }
     return true;
 }
 
-bool UvGuard::keeps_winding(size_t triangle, uint32_t set, const std::array<uint32_t, 3>& wedges) const {
-    const int8_t before = windings_[triangle * sets_ + set];
-    const int8_t after = winding(uv(wedges[0], set), uv(wedges[1], set), uv(wedges[2], set));
-    if (after == 0) return before == 0;
-    if (before == -after) return false;
+bool UvGuard::keeps_winding(const Wedges& before, const Wedges& after, uint32_t set) const {
+    const int8_t was = winding(before, set), is = winding(after, set);
+    if (is == 0) return was == 0;
+    if (is == -was) return false;
     int around = 0;
-    for (const uint32_t wedge : wedges) around += around_[size_t{mesh_.wedge_chart(wedge)} * sets_ + set];
-    return around * after >= 0;
+    for (const uint32_t wedge : after) around += around_[size_t{mesh_.wedge_chart(wedge)} * sets_ + set];
+    return around * is >= 0;
 }
 
 }  // namespace coppice

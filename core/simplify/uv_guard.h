@@ -28,15 +28,16 @@ class UvGuard {
         float u = 0, v = 0;
     };
     void add_set(const CollapseMesh& mesh, const Attribute& uvs, uint32_t set, const Watch& watch);
-    bool keeps_winding(size_t triangle, uint32_t set, const std::array<uint32_t, 3>& wedges) const;
-    static int8_t winding(Uv a, Uv b, Uv c);
+    using Wedges = std::array<uint32_t, 3>;  // of a triangle's corners
+    bool keeps_winding(const Wedges& before, const Wedges& after, uint32_t set) const;
+    int8_t winding(const Wedges& wedges, uint32_t set) const;  // 1 or -1, 0 without area
     const Uv& uv(uint32_t wedge, uint32_t set) const { return uvs_[size_t{wedge} * sets_ + set]; }
 
     const CollapseMesh& mesh_;
     uint32_t sets_ = 0;
-    std::vector<Uv> uvs_;           // per wedge and set
-    std::vector<int8_t> windings_;  // per triangle and set, at the start: 1 or -1, 0 without area
-    std::vector<int8_t> around_;    // per chart and set: that of all its triangles, 0 where they disagree
+    std::vector<Uv> uvs_;  // per wedge and set
+    std::vector<int8_t>
+        around_;  // per chart and set: winding of all its triangles at the start, 0 where they disagree
 };
 
 }  // namespace coppice

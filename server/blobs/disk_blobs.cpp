@@ -162,7 +162,12 @@ void DiskBlobs::publish(const std::filesystem::path& incoming, const std::string
             fail_with_errno("make a folder for the stored bytes");
         }
         if (::rename(incoming.c_str(), path.c_str()) != 0) fail_with_errno("store the bytes");
-        sync_folder(path.parent_path());
+        try {
+            sync_folder(path.parent_path());
+        } catch (...) {  // else the next who brings the same bytes would take them for safe
+            ::unlink(path.c_str());
+            throw;
+        }
     }
     ++held_[sha256];
 }

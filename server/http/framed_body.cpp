@@ -45,6 +45,9 @@ void FramedBody::next_chunk() {
     if (in_chunk_) require(read_line().empty(), malformed, "", "a chunk is longer than its size says");
     const std::string line = read_line();
     const auto size = std::string_view(line).substr(0, line.find_first_of("; \t"));
+    const size_t rest = line.find_first_not_of(" \t", size.size());
+    require(rest == std::string::npos || line[rest] == ';', malformed, "",
+            "after a chunk's size comes what is no extension");
     const auto [end, error] = std::from_chars(size.data(), size.data() + size.size(), left_, 16);
     require(!size.empty() && size[0] != '-' && error == std::errc() && end == size.data() + size.size(),
             malformed, "", "a chunk's size is not a hexadecimal number");
@@ -67,6 +70,9 @@ std::string FramedBody::read_line() {
                 "a chunk's line ends with a bare LF");
     }
     line.resize(line.size() - 2);
+    require(std::none_of(line.begin(), line.end(),
+                         [](unsigned char c) { return (c < ' ' && c != '\t') || c == 127; }),
+            malformed, "", "a chunk's line has a control character");
     return line;
 }
 

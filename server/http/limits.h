@@ -15,7 +15,7 @@ struct HttpLimits {
     size_t part_header_bytes = 4 << 10;  // of one multipart part
     size_t parts = 512;                  // multipart parts in one body
 
-    std::chrono::milliseconds header_time{10'000};  // from the first chance to send them to the empty line
+    std::chrono::milliseconds header_time{10'000};  // to the empty line; as long again before the first byte
     std::chrono::milliseconds body_time{900'000};   // for the whole body, however steadily it comes
     uint64_t bytes_per_second = 1000;               // both ways
     std::chrono::milliseconds slow_time{10'000};    // for so long, a client may be slower

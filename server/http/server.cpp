@@ -92,26 +92,26 @@ class HttpServer::Front {
         ConnectionThreads threads(serving_.limits.connections + spare_threads);
         TurnedAway turned_away;
         while (!listener_->is_stopped()) {
-            auto accepted = listener_->accept(turned_away.empty() ? 1000ms : 50ms);
-            if (accepted) take(std::move(*accepted), threads, turned_away);
-            turned_away.tidy();
+            try {
+                auto accepted = listener_->accept(turned_away.empty() ? 1000ms : 50ms);
+                if (accepted) take(std::move(*accepted), threads, turned_away);
+                turned_away.tidy();
+            } catch (
+                const std::exception&) {  // no memory: this connection ends, and the next may find some again
+            }
         }
     }
 
     // Only an address that has too many connections is refused here, at no cost; over the cap of all, a spare
     // thread looks whether it is health that is asked for: a busy service is not a dead one.
     void take(Accepted accepted, ConnectionThreads& threads, TurnedAway& turned_away) {
-        try {
-            const int yes = 1;
-            ::setsockopt(accepted.socket.number(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-            const auto guest = std::make_shared<Guest>(serving_.connections, std::move(accepted));
-            if (guest->verdict() == Connections::Verdict::too_many_from_address) {
-                turn_away(*guest, too_many_from_address(serving_.limits), turned_away);
-            } else if (!threads.run([this, guest] { serve(*guest); })) {
-                turn_away(*guest, too_many(serving_.limits), turned_away);
-            }
-        } catch (
-            const std::exception&) {  // no memory: this connection ends, and the next may find some again
+        const int yes = 1;
+        ::setsockopt(accepted.socket.number(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+        const auto guest = std::make_shared<Guest>(serving_.connections, std::move(accepted));
+        if (guest->verdict() == Connections::Verdict::too_many_from_address) {
+            turn_away(*guest, too_many_from_address(serving_.limits), turned_away);
+        } else if (!threads.run([this, guest] { serve(*guest); })) {
+            turn_away(*guest, too_many(serving_.limits), turned_away);
         }
     }
 

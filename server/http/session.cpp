@@ -167,7 +167,7 @@ class Session final : private httplib::Server {
         request_.body = nullptr;
         // An answer that came before the body was read: what is left of it must never be taken for a request.
         if (!body.is_finished()) wire_.linger(linger_time);
-        return sent && keep_alive_;
+        return sent && keep_alive_ && body.is_finished();
     }
 
     void run(httplib::Response& result) {

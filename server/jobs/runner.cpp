@@ -20,11 +20,17 @@ Runner::~Runner() {
 
 void Runner::start() {
     slots_alive_ = options_.slots;
-    for (unsigned i = 0; i < options_.slots; ++i) {
-        Slot& slot = *slots_.emplace_back(std::make_unique<Slot>());
-        slot.thread = std::thread([this, &slot] { run_slot(slot); });
+    try {
+        for (unsigned i = 0; i < options_.slots; ++i) {
+            Slot& slot = *slots_.emplace_back(std::make_unique<Slot>());
+            slot.thread = std::thread([this, &slot] { run_slot(slot); });
+        }
+        heartbeat_ = std::thread([this] { beat(); });
+    } catch (...) {  // no more threads: those that run have to end before they are destroyed
+        stop_claiming_.request_stop();
+        end_slots();
+        throw;
     }
-    heartbeat_ = std::thread([this] { beat(); });
 }
 
 void Runner::drain(std::chrono::milliseconds grace) {
@@ -34,15 +40,21 @@ void Runner::drain(std::chrono::milliseconds grace) {
         std::unique_lock lock(mutex_);
         slot_ended_.wait_for(lock, grace, [&] { return slots_alive_ == 0; });
     }
+    end_slots();
+    stop_beating_.request_stop();
+    heartbeat_.join();
+    slots_.clear();
+}
+
+void Runner::end_slots() {
     giving_back_ = true;
     for (const auto& slot : slots_) {
         const std::scoped_lock lock(slot->mutex);
         slot->stop.request_stop();
     }
-    for (const auto& slot : slots_) slot->thread.join();
-    stop_beating_.request_stop();
-    heartbeat_.join();
-    slots_.clear();
+    for (const auto& slot : slots_) {
+        if (slot->thread.joinable()) slot->thread.join();
+    }
 }
 
 void Runner::run_slot(Slot& slot) {
@@ -72,7 +84,6 @@ void Runner::run_slot(Slot& slot) {
 void Runner::run_job(Slot& slot, const Claim& claim) {
     {
         const std::scoped_lock lock(slot.mutex);
-        slot.busy = true;
         slot.timed_out = false;
         slot.id = claim.record.job.id;
         slot.token = claim.token;
@@ -81,6 +92,7 @@ void Runner::run_job(Slot& slot, const Claim& claim) {
         slot.started = Clock::now();
         slot.stop = std::stop_source();
         if (giving_back_) slot.stop.request_stop();
+        slot.busy = true;  // last: what is before it may throw
     }
     // Whatever throws below: a slot that stayed busy would have its lease renewed for ever.
     const auto release = [](Slot* held) {
@@ -138,7 +150,7 @@ void Runner::conclude_failure(Slot& slot, const Claim& claim, const std::excepti
     const bool taken = store_.fail(slot.id, claim.token, problem);
     record_end(slot, claim, taken ? "failed" : "stale",
                {{"code", std::string(name(problem.code))}, {"error", std::string(exception.what())}},
-               is_our_fault(problem.code));
+               taken && is_our_fault(problem.code));
 }
 
 void Runner::record_end(const Slot& slot, const Claim& claim, const std::string& status,

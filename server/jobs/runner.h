@@ -1,10 +1,12 @@
 // The pool of slots: each claims a job, works on it, and says how it ended.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -51,6 +53,7 @@ class Runner {
         std::stop_source stop;
     };
 
+    void end_slots();
     void run_slot(Slot& slot);
     void run_job(Slot& slot, const Claim& claim);
     void conclude(Slot& slot, const Claim& claim, Worked worked);

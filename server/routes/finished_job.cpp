@@ -16,6 +16,7 @@ std::optional<JobRecord> find_succeeded(const Request& request, Response& respon
     }
     if (record.result) return record;
     set_problem(response, record.job.problem.value_or(Problem{}), 409);
+    response.fault.clear();  // it was logged when the job failed
     return std::nullopt;
 }
 

@@ -23,9 +23,10 @@ Job MemoryStore::submit(NewJob job) {
     made.record.resources = std::move(job.resources);
     count_references(made.record, 1);
     const Job view = made.record.job;
-    by_sequence_[made.sequence] = view.id;
-    queue_[made.sequence] = view.id;
-    jobs_.emplace(view.id, std::move(made));
+    const uint64_t sequence = made.sequence;
+    jobs_.emplace(view.id, std::move(made));  // first: the others name it
+    by_sequence_[sequence] = view.id;
+    queue_[sequence] = view.id;
     work_.notify_one();
     return view;
 }
@@ -35,8 +36,8 @@ std::optional<Claim> MemoryStore::claim() {
     requeue_lapsed();
     if (queue_.empty()) return std::nullopt;
     Entry& next = jobs_.at(queue_.begin()->second);
+    running_[next.sequence] = next.record.job.id;  // first: it may find no memory
     queue_.erase(queue_.begin());
-    running_[next.sequence] = next.record.job.id;
     next.token = next_token_++;
     next.lease_until = now_() + limits_.lease;
     Job& job = next.record.job;

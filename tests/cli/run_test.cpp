@@ -165,10 +165,12 @@ TEST_F(CommandLine, keeps_a_zip_where_the_name_says_so) {
 
 TEST_F(CommandLine, does_not_replace_a_different_file_that_is_in_the_way) {
     std::ofstream(folder_ / "steel.png") << "somebody's picture";
-    EXPECT_EQ(run({"sample", "cad", "-o", path("scene.gltf"), "--copies", "7", "--triangles", "100"}), 1);
-    EXPECT_THAT(err(), HasSubstr("steel.png"));
-    EXPECT_EQ(content("steel.png"), "somebody's picture");
-    EXPECT_FALSE(fs::exists(folder_ / "scene.gltf"));
+    for (const char* output : {"scene.gltf", "steel.gltf"}) {
+        EXPECT_EQ(run({"sample", "cad", "-o", path(output), "--copies", "7", "--triangles", "100"}), 1);
+        EXPECT_THAT(err(), HasSubstr("steel.png"));
+        EXPECT_EQ(content("steel.png"), "somebody's picture");
+        EXPECT_FALSE(fs::exists(folder_ / output));
+    }
 }
 
 TEST_F(CommandLine, takes_parameters_of_algorithms) {

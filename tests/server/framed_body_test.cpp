@@ -57,6 +57,14 @@ TEST(FramedBody, chunk_sizes_that_are_no_hexadecimal_numbers_are_refused) {
     }
 }
 
+TEST(FramedBody, junk_after_a_size_and_control_characters_are_refused) {
+    for (const std::string bytes : {"4 junk=1\r\nabcd\r\n0\r\n\r\n", "4;a\rb\r\nabcd\r\n0\r\n\r\n",
+                                    "4\r\nabcd\r\n0\r\nX: \x01\r\n\r\n"}) {
+        FramedBody body = chunked(bytes);
+        EXPECT_THAT([&] { read_all(body); }, fails_with(ErrorCode::request_malformed, "")) << bytes;
+    }
+}
+
 TEST(FramedBody, a_chunk_longer_than_its_size_and_a_bare_line_feed_are_refused) {
     FramedBody longer = chunked("2\r\nabc\r\n0\r\n\r\n");
     EXPECT_THAT([&] { read_all(longer); }, fails_with(ErrorCode::request_malformed, ""));

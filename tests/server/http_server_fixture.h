@@ -31,8 +31,8 @@ class HttpServerTest : public ::testing::Test {
   protected:
     HttpServerTest() {
         limits.body_bytes = 1 << 20;
-        limits.header_time = 300ms;
-        limits.idle_time = 300ms;
+        limits.header_time = 1s;
+        limits.idle_time = 2s;
     }
 
     int start() {

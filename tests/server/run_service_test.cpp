@@ -93,7 +93,7 @@ TEST(RunService, outlives_more_connections_than_it_has_descriptors) {
     std::vector<std::unique_ptr<test::Connection>> idle;
     for (rlim_t i = 0; i < descriptors; ++i) idle.push_back(std::make_unique<test::Connection>(port));
     idle.clear();
-    EXPECT_EQ(test::request(port, "GET", "/readyz").status, 200);
+    EXPECT_EQ(test::request(port, "GET", "/healthz").status, 200);
     EXPECT_EQ(process.end_with(SIGTERM), 0);
 }
 

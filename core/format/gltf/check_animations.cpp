@@ -53,11 +53,11 @@ class AnimationCheck {
 
     void use(const Json& sampler, const char* end, Usage usage, const Pointer& where) {
         const uint32_t index = *index_at(sampler, end);
-        set_usage(parsed_, index, usage, where / "" / end);
+        set_usage(parsed_, index, usage, where / end);
         const auto view = index_at(parsed_.json["accessors"][index], "bufferView");
-        demand(!view || !parsed_.json["bufferViews"][*view].contains("byteStride"), where / "" / end,
+        demand(!view || !parsed_.json["bufferViews"][*view].contains("byteStride"), where / end,
                "is accessor {}, whose buffer view has a byteStride; only vertex attributes may", index);
-        if (view) set_view_usage(parsed_, *view, ViewUsage::other, where / "" / end);
+        if (view) set_view_usage(parsed_, *view, ViewUsage::other, where / end);
     }
 
     void sampler(const Json& sampler, const Pointer& where) {

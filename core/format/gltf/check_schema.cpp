@@ -17,7 +17,8 @@ constexpr double largest_integer = 9007199254740991.0;  // 2^53 - 1: the largest
 
 std::string shown(const Json& value) {
     std::string text = value.is_structured() ? std::string(value.type_name()) : print_json(value);
-    return text.size() > 60 ? text.substr(0, 57) + "..." : text;
+    if (text.size() > 60) text.replace(57, std::string::npos, "...");
+    return text;
 }
 
 template <typename Value>

@@ -1,6 +1,7 @@
 #include "core/format/gltf/draco.h"
 
-#include <draco/compression/decode.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
 
 #include <algorithm>
 #include <array>
@@ -12,24 +13,63 @@ namespace coppice::gltf {
 
 namespace {
 
-std::unique_ptr<draco::Mesh> decode_mesh(ByteView bytes, const Pointer& where) {
-    const auto* data = reinterpret_cast<const char*>(bytes.data());
+// Stops before values are read that would take more memory than there may be: a stream says how many
+// attributes it has, of up to 255 components each, and all are allocated before it is known whether their
+// values are there.
+template <typename Decoder>
+class BoundedDecoder : public Decoder {
+  public:
+    explicit BoundedDecoder(uint64_t most_bytes) : most_bytes_(most_bytes) {}
+
+    bool is_too_large() const { return too_large_; }
+
+  protected:
+    bool DecodeAllAttributes() override {
+        uint64_t stride = 0;
+        const draco::PointCloud& points = *Decoder::point_cloud();
+        for (int32_t i = 0; i < points.num_attributes(); ++i)
+            stride += static_cast<uint64_t>(points.attribute(i)->byte_stride());
+        too_large_ = stride > 0 && points.num_points() > most_bytes_ / stride;
+        return !too_large_ && Decoder::DecodeAllAttributes();
+    }
+
+  private:
+    uint64_t most_bytes_;
+    bool too_large_ = false;
+};
+
+template <typename Decoder>
+std::unique_ptr<draco::Mesh> decode_with(draco::DecoderBuffer& buffer, uint64_t most_bytes,
+                                         const Pointer& where) {
+    auto mesh = std::make_unique<draco::Mesh>();
+    BoundedDecoder<Decoder> decoder(most_bytes);
+    const draco::Status status = decoder.Decode(draco::DecoderOptions(), &buffer, mesh.get());
+    require(!decoder.is_too_large(), ErrorCode::asset_too_large, where,
+            "{} has attributes of more than {} bytes in its Draco stream (limit attribute_bytes)", where,
+            most_bytes);
+    demand(status.ok(), where, "cannot be decoded: {}", status.error_msg_string());
+    return mesh;
+}
+
+std::unique_ptr<draco::Mesh> decode_mesh(ByteView bytes, DracoMethod method, uint64_t most_bytes,
+                                         const Pointer& where) {
     draco::DecoderBuffer buffer;
-    buffer.Init(data, bytes.size());
-    draco::Decoder decoder;
-    auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-    demand(decoded.ok(), where, "cannot be decoded: {}", decoded.status().error_msg_string());
-    return std::move(decoded).value();
+    buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return method == DracoMethod::edgebreaker
+               ? decode_with<draco::MeshEdgebreakerDecoder>(buffer, most_bytes, where)
+               : decode_with<draco::MeshSequentialDecoder>(buffer, most_bytes, where);
 }
 
 // What the stream says of itself, before anything is allocated for it.
-void check_sizes(ByteView stream, uint64_t vertex_count, uint64_t triangle_limit, const Pointer& where) {
+DracoMethod check_sizes(ByteView stream, uint64_t vertex_count, uint64_t triangle_limit,
+                        const Pointer& where) {
     const auto sizes = draco_sizes(stream);
     demand(sizes.has_value(), where, "is not a Draco stream of triangles");
     require(sizes->triangles <= triangle_limit, ErrorCode::asset_too_large, where,
             "{} has more triangles than are read (limit triangles)", where);
     demand(sizes->vertices <= vertex_count, where,
            "has {} vertices in its accessors, but the Draco stream has {}", vertex_count, sizes->vertices);
+    return sizes->method;
 }
 
 template <typename T>
@@ -93,15 +133,16 @@ void read_triangles(const draco::Mesh& mesh, DracoPrimitive& out, const Pointer&
 
 }  // namespace
 
-DracoPrimitive decode_draco(const Parsed& parsed, const Json& primitive, uint64_t triangle_limit,
+DracoPrimitive decode_draco(const Parsed& parsed, const Json& primitive, const DracoLimits& limits,
                             const Pointer& primitive_where) {
     const Json& json = *extension(primitive, "KHR_draco_mesh_compression");
     const Pointer where = primitive_where / "extensions" / "KHR_draco_mesh_compression";
     demand(unsigned_at(primitive, "mode", 4) >= 4, where, "is on a primitive of points or lines");
     const ByteView stream = parsed.views[*index_at(json, "bufferView")];
     const auto any_attribute = primitive["attributes"].begin()->get<uint32_t>();
-    check_sizes(stream, parsed.accessors[any_attribute].count, triangle_limit, where);
-    const auto mesh = decode_mesh(stream, where);
+    const DracoMethod method =
+        check_sizes(stream, parsed.accessors[any_attribute].count, limits.triangles, where);
+    const auto mesh = decode_mesh(stream, method, limits.attribute_bytes, where);
     DracoPrimitive out;
     out.vertex_count = mesh->num_points();
     read_triangles(*mesh, out, where);

@@ -9,6 +9,12 @@
 
 namespace coppice::gltf {
 
+// How much a stream may decode to.
+struct DracoLimits {
+    uint64_t triangles = 0;
+    uint64_t attribute_bytes = 0;
+};
+
 struct DracoPrimitive {
     uint64_t vertex_count = 0;
     std::vector<uint32_t> triangles;  // 3 vertices each, in range
@@ -18,7 +24,7 @@ struct DracoPrimitive {
 };
 
 // primitive: has the extension. Throws asset_malformed, asset_too_large.
-DracoPrimitive decode_draco(const Parsed& parsed, const Json& primitive, uint64_t triangle_limit,
+DracoPrimitive decode_draco(const Parsed& parsed, const Json& primitive, const DracoLimits& limits,
                             const Pointer& where);
 
 }  // namespace coppice::gltf

@@ -53,9 +53,9 @@ std::optional<DracoSizes> draco_sizes(ByteView stream) {
     buffer.set_bitstream_version(version_of(header.version_major, header.version_minor));
     if (!skip_metadata(buffer, header)) return std::nullopt;
     DracoSizes sizes;
-    const bool is_read = header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING
-                             ? read_edgebreaker_sizes(buffer, sizes)
-                             : read_sequential_sizes(buffer, sizes);
+    if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) sizes.method = DracoMethod::edgebreaker;
+    const bool is_read = sizes.method == DracoMethod::edgebreaker ? read_edgebreaker_sizes(buffer, sizes)
+                                                                  : read_sequential_sizes(buffer, sizes);
     return is_read ? std::optional(sizes) : std::nullopt;
 }
 

@@ -8,13 +8,16 @@
 
 namespace coppice::gltf {
 
+enum class DracoMethod { sequential, edgebreaker };
+
 struct DracoSizes {
+    DracoMethod method = DracoMethod::sequential;
     uint32_t triangles = 0;
     uint32_t vertices = 0;  // attributes with seams may still split them
 };
 
-// Of a stream of triangles; none for anything else. The decoder allocates what the stream says before it
-// finds out whether that is there.
+// Of a stream of triangles; none for anything else. The decoder allocates for so many before it finds out
+// whether they are there.
 std::optional<DracoSizes> draco_sizes(ByteView stream);
 
 }  // namespace coppice::gltf

@@ -51,7 +51,7 @@ std::vector<std::optional<uint32_t>> kept_images(const Scene& scene, std::vector
 bool has_coordinates(const Mesh& mesh, const MaterialSlot& slot, uint32_t set) {
     const std::string name = fmt::format("TEXCOORD_{}", set);
     for (size_t a = 0; a < mesh.attributes.size(); ++a)
-        if (mesh.attributes[a].name == name) return slot.has_attribute.empty() || slot.has_attribute[a];
+        if (mesh.attributes[a].name == name) return slot.has(a);
     return false;
 }
 

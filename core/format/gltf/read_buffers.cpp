@@ -96,7 +96,7 @@ Accessor read_accessor(Parsed& parsed, const Json& json, const Pointer& where) {
     demand(!accessor.storage.normalized || size_of(accessor.storage.type) < 4, where / "normalized",
            "is true, but only 8 and 16 bit integers can be normalized");
     for (const char* bound : {"min", "max"})
-        demand(!json.contains(bound) || json[bound].size() == accessor.components(), where / "" / bound,
+        demand(!json.contains(bound) || json[bound].size() == accessor.components(), where / bound,
                "has {} numbers; elements of this accessor have {}", list(json, bound).size(),
                accessor.components());
     read_base(parsed, json, accessor, where);

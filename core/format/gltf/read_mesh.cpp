@@ -1,4 +1,5 @@
 #include "core/format/gltf/read_mesh.h"
+#include "core/format/clean_triangles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +73,10 @@ class MeshReader {
   private:
     void add_slot(const Json& primitive, uint32_t p) {
         const Pointer where = pointer("meshes", index_, "primitives", p);
-        data_.push_back(read_primitive(parsed_, primitive, limits_.triangles - budget_.triangles, where));
+        data_.push_back(read_primitive(
+            parsed_, primitive,
+            {limits_.triangles - budget_.triangles, limits_.attribute_bytes - budget_.attribute_bytes},
+            where));
         budget_.triangles += data_.back().triangles.size() / 3;
         require(budget_.triangles <= limits_.triangles, ErrorCode::asset_too_large, where,
                 "the meshes have more than {} triangles (limit triangles)", limits_.triangles);
@@ -188,19 +192,9 @@ class MeshReader {
     void clean() {
         make_legal(mesh_);
         weld(mesh_, watch_);
-        const CleanedTriangles cleaned = drop_degenerate_and_duplicate(mesh_, watch_);
         drop_unused(mesh_, watch_);
-        const Pointer where = pointer("meshes", index_);
-        if (cleaned.degenerate > 0)
-            parsed_.warn(
-                "repair.degenerate_triangles",
-                fmt::format("{} degenerate triangles of mesh {} were dropped", cleaned.degenerate, index_),
-                where);
-        if (cleaned.duplicate > 0)
-            parsed_.warn(
-                "repair.duplicate_triangles",
-                fmt::format("{} duplicate triangles of mesh {} were dropped", cleaned.duplicate, index_),
-                where);
+        clean_triangles(mesh_, fmt::format("mesh {}", index_), pointer("meshes", index_).text(),
+                        parsed_.warnings, watch_);
     }
 
     Parsed& parsed_;

@@ -39,9 +39,9 @@ NamedAccessors accessors_of(const Parsed& parsed, const Json& map) {
 }
 
 // Puts what Draco decoded in the place of the accessors that say what it is.
-void decode(const Parsed& parsed, const Json& primitive, uint64_t triangle_limit, const Pointer& where,
-            PrimitiveData& data) {
-    data.decoded = std::make_unique<DracoPrimitive>(decode_draco(parsed, primitive, triangle_limit, where));
+void decode(const Parsed& parsed, const Json& primitive, const DracoLimits& draco_limits,
+            const Pointer& where, PrimitiveData& data) {
+    data.decoded = std::make_unique<DracoPrimitive>(decode_draco(parsed, primitive, draco_limits, where));
     for (auto& [name, accessor] : data.attributes) {
         demand(accessor->count == data.decoded->vertex_count, where / "attributes" / name,
                "has {} elements, but the Draco stream has {} vertices", accessor->count,
@@ -69,14 +69,14 @@ bool is_triangles(const Json& primitive) {
     return unsigned_at(primitive, "mode", 4) >= 4 && primitive["attributes"].contains("POSITION");
 }
 
-PrimitiveData read_primitive(const Parsed& parsed, const Json& primitive, uint64_t triangle_limit,
+PrimitiveData read_primitive(const Parsed& parsed, const Json& primitive, const DracoLimits& draco_limits,
                              const Pointer& where) {
     PrimitiveData data;
     data.attributes = accessors_of(parsed, primitive["attributes"]);
     for (const Json& target : list(primitive, "targets"))
         data.targets.push_back(accessors_of(parsed, target));
     if (extension(primitive, "KHR_draco_mesh_compression") != nullptr)
-        decode(parsed, primitive, triangle_limit, where, data);
+        decode(parsed, primitive, draco_limits, where, data);
     else
         unroll_indices(parsed, primitive, data);
     const auto positions = std::find_if(data.attributes.begin(), data.attributes.end(),

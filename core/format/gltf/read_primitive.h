@@ -28,9 +28,9 @@ struct PrimitiveData {
 // Triangles, strips and fans with positions; all else is passed through.
 bool is_triangles(const Json& primitive);
 
-// triangle_limit: how many triangles a Draco stream may have; what accessors say was checked before. Throws
+// draco_limits: what a Draco stream may decode to; what accessors say was checked before. Throws
 // asset_malformed, asset_too_large.
-PrimitiveData read_primitive(const Parsed& parsed, const Json& primitive, uint64_t triangle_limit,
+PrimitiveData read_primitive(const Parsed& parsed, const Json& primitive, const DracoLimits& draco_limits,
                              const Pointer& where);
 
 }  // namespace coppice::gltf

@@ -24,11 +24,6 @@ std::vector<std::vector<uint32_t>> slots_with_the_same_attributes(const Mesh& me
 
 }  // namespace
 
-bool has_attribute(const Mesh& mesh, uint32_t slot, size_t attribute) {
-    const std::vector<bool>& has = mesh.slots[slot].has_attribute;
-    return has.empty() || has[attribute];
-}
-
 SlotGeometries::SlotGeometries(const Mesh& mesh)
     : mesh_(mesh),
       slots_(mesh.slots.size()),

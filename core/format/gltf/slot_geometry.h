@@ -14,8 +14,6 @@ namespace coppice::gltf {
 // 65535 restarts primitives, so it is no index.
 inline constexpr size_t largest_short_count = 65535;
 
-bool has_attribute(const Mesh& mesh, uint32_t slot, size_t attribute);
-
 class SlotGeometries {
   public:
     struct Slot {
@@ -23,8 +21,8 @@ class SlotGeometries {
         std::vector<uint32_t> indices;                  // into wedges, 3 per triangle; none for an empty slot
     };
 
-    // Slots with the same attributes share a vertex buffer where they have wedges in common, which are stored
-    // once then.
+    // All slots with the same attributes share one vertex buffer, if that saves more than it costs: any wedge
+    // that two of them use is stored once then.
     explicit SlotGeometries(const Mesh& mesh);
     SlotGeometries(const SlotGeometries&) = delete;
     SlotGeometries& operator=(const SlotGeometries&) = delete;

@@ -87,7 +87,7 @@ class PrimitiveWriter {
         buffer.attributes["POSITION"] = positions(wedges);
         for (size_t a = 0; a < mesh_.attributes.size(); ++a) {
             const Attribute& attribute = mesh_.attributes[a];
-            if (!has_attribute(mesh_, slot, a) || !is_storable(attribute)) continue;
+            if (!mesh_.slots[slot].has(a) || !is_storable(attribute)) continue;
             buffer.attributes[attribute.name] = values(attribute, wedges, false);
         }
         for (const MorphTarget& target : mesh_.morph_targets)
@@ -137,7 +137,7 @@ class PrimitiveWriter {
         for (const Attribute& delta : target.deltas) {
             const auto base = attributes_.find(delta.name);
             const bool has_base = delta.name == "POSITION" ||
-                                  (base != attributes_.end() && has_attribute(mesh_, slot, base->second));
+                                  (base != attributes_.end() && mesh_.slots[slot].has(base->second));
             if (has_base && is_storable(delta)) out[delta.name] = values(delta, wedges, true);
         }
         // A target without any delta is not allowed; one of zeros is.

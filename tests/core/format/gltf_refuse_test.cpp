@@ -289,6 +289,14 @@ TEST(GltfRefuse, a_draco_stream_that_claims_more_triangles_than_the_limit) {
     EXPECT_THAT(error_of_draco(sequential), HasSubstr("limit triangles"));
 }
 
+TEST(GltfRefuse, a_draco_stream_whose_attributes_would_take_more_than_the_limit) {
+    std::vector<uint8_t> stream = draco_header(false);
+    stream.insert(stream.end(), {1, 4, 1, 0, 1, 2});  // one triangle of four vertices, stored as it is
+    stream.insert(stream.end(), {1, 1, 0, 10, 255, 0, 0, 0});  // one attribute of 255 numbers of 8 bytes each
+    EXPECT_THAT(error_of_draco(stream), HasSubstr("cannot be decoded"));
+    EXPECT_THAT(error_of_draco(stream, {.attribute_bytes = 8000}), HasSubstr("limit attribute_bytes"));
+}
+
 TEST(GltfRefuse, a_draco_stream_that_claims_more_vertices_than_its_accessors) {
     std::vector<uint8_t> edgebreaker = draco_header(true);
     edgebreaker.insert(edgebreaker.end(), {0, 0xFF, 0xFF, 0xFF, 0x7F, 2});
