@@ -291,10 +291,10 @@ TEST(GltfRefuse, a_draco_stream_that_claims_more_triangles_than_the_limit) {
 
 TEST(GltfRefuse, a_draco_stream_whose_attributes_would_take_more_than_the_limit) {
     std::vector<uint8_t> stream = draco_header(false);
-    stream.insert(stream.end(), {1, 4, 1, 0, 1, 2});  // one triangle of four vertices, stored as it is
+    stream.insert(stream.end(), {1, 3, 1, 0, 1, 2});  // one triangle of three vertices, stored as it is
     stream.insert(stream.end(), {1, 1, 0, 10, 255, 0, 0, 0});  // one attribute of 255 numbers of 8 bytes each
     EXPECT_THAT(error_of_draco(stream), HasSubstr("cannot be decoded"));
-    EXPECT_THAT(error_of_draco(stream, {.attribute_bytes = 8000}), HasSubstr("limit attribute_bytes"));
+    EXPECT_THAT(error_of_draco(stream, {.attribute_bytes = 6000}), HasSubstr("limit attribute_bytes"));
 }
 
 TEST(GltfRefuse, a_draco_stream_that_claims_more_vertices_than_its_accessors) {
