@@ -1,6 +1,9 @@
 #include "proto/report.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/simplify/registry.h"
 #include "proto/json.h"
@@ -67,6 +70,10 @@ Json to_json(const Warning& warning) {
     return json;
 }
 
+Json to_json(const std::optional<double>& number) {
+    return number ? Json(*number) : Json(nullptr);
+}
+
 Json to_json(const Vec3d& point) {
     return Json::array({point.x, point.y, point.z});
 }
@@ -99,6 +106,10 @@ std::string_view type_name(Parameter::Kind kind) {
             return "integer";
         case Parameter::Kind::choice:
             return "choice";
+        case Parameter::Kind::length:
+            return "length";
+        case Parameter::Kind::text:
+            return "text";
     }
     return {};
 }
@@ -111,6 +122,7 @@ Json to_json(const Parameter& parameter) {
         json[parameter.minimum_excluded ? "exclusive_minimum" : "minimum"] = *parameter.minimum;
     if (parameter.maximum) json["maximum"] = *parameter.maximum;
     if (!parameter.choices.empty()) json["choices"] = parameter.choices;
+    if (!parameter.pattern.empty()) json["pattern"] = fmt::format("^(?:{})$", parameter.pattern);
     return json;
 }
 
@@ -151,7 +163,7 @@ std::string print_report(const Report& report) {
     json["instancing"] = to_json(report.instancing);
     json["warnings"] = list(report.warnings);
     json["budget"] = report.budget;
-    json["thresholds_used"] = report.thresholds_used;
+    json["thresholds_used"] = list(report.thresholds_used);
     json["reused_meshes"] = report.reused_meshes;
     json["engine"] = {{"version", report.engine_version}, {"build", report.engine_build}};
     return print_json(json);

@@ -79,6 +79,13 @@ std::vector<InstanceMapping> map_instances(const std::vector<Instance>& before, 
     return map;
 }
 
+std::vector<std::optional<double>> thresholds(const std::vector<Simplified>& simplified) {
+    std::vector<std::optional<double>> used;
+    for (const Simplified& s : simplified) used.push_back(s.threshold_used);
+    const bool any = std::any_of(used.begin(), used.end(), [](const auto& t) { return t.has_value(); });
+    return any ? used : std::vector<std::optional<double>>{};
+}
+
 void append(std::vector<Warning>& warnings, std::vector<Warning> more) {
     warnings.insert(warnings.end(), std::make_move_iterator(more.begin()),
                     std::make_move_iterator(more.end()));
@@ -98,6 +105,7 @@ std::vector<MeshReport> simplify(Scene& scene, const Placement& placement, const
     std::vector<Simplified> simplified = simplify_meshes(scene.meshes, placement, targets, algorithm,
                                                          report.parameters, options.threads, watch);
     std::vector<MeshReport> reports = mesh_reports(scene, placement, simplified);
+    report.thresholds_used = thresholds(simplified);
     append(report.warnings, check_result(scene, placement, targets, simplified, options));
     for (size_t i = 0; i < simplified.size(); ++i) scene.meshes[i] = std::move(simplified[i].mesh);
     return reports;

@@ -72,8 +72,8 @@ struct Report {
     InstancingReport instancing;
     std::vector<Warning> warnings;
     std::string budget = "bytes";
-    std::vector<double> thresholds_used;  // of algorithms that search for one
-    uint64_t reused_meshes = 0;           // taken from the store of simplified meshes; 0 until it exists
+    std::vector<std::optional<double>> thresholds_used;  // per mesh; empty where the algorithm has none
+    uint64_t reused_meshes = 0;  // taken from the store of simplified meshes; 0 until it exists
     std::string engine_version;
     std::string engine_build;  // commit and compiler
 };

@@ -41,6 +41,7 @@ struct Simplified {
         0;  // largest deviation that the algorithm estimates; not a bound unless certified
     bool certified = false;
     StopReason stop_reason = StopReason::target;
+    std::optional<double> threshold_used = {};  // of an algorithm that has one, in that parameter's unit
 };
 
 struct Algorithm {
@@ -48,7 +49,9 @@ struct Algorithm {
     std::string_view title;
     std::string_view citation;
     std::span<const Parameter> parameters;
-    bool instance_aware = false;  // simplifies each unique mesh once, whatever its number of instances
+    bool instance_aware = false;                 // the instances of a mesh weigh in what is kept of it
+    uint32_t bytes_per_triangle = 400;           // at most this much memory, beside the mesh and its result
+    double bounds_tolerance_of_diagonal = 0.01;  // how far each side of the box may move
 
     // instances: world transforms of the mesh's instances (may be empty), for weights. Deterministic. Reports
     // progress 0..1 and honours watch.stop at least every 50 ms by throwing. Never throws on a consistent

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "core/base/error.h"
 #include "core/base/number.h"
@@ -35,6 +36,10 @@ std::string describe(const Parameter& p) {
             return "true or false";
         case Parameter::Kind::choice:
             return fmt::format("one of {}", fmt::join(p.choices, ", "));
+        case Parameter::Kind::text:
+            return std::string(p.form);
+        case Parameter::Kind::length:
+            return describe_number(p) + ", or one with the suffix u (mesh units)";
         default:
             return describe_number(p);
     }
@@ -69,12 +74,36 @@ std::optional<ParameterValue> parse_choice(const Parameter& p, const ParameterVa
     return given;
 }
 
+// "0.85", or "0.01u" for mesh units; the latter is kept as text.
+std::optional<ParameterValue> parse_length(const Parameter& p, const ParameterValue& given) {
+    const std::string* text = std::get_if<std::string>(&given);
+    if (!text || !text->ends_with('u')) return parse_number(p, given);
+    const std::optional<ParameterValue> number = parse_number(p, text->substr(0, text->size() - 1));
+    return number ? std::optional(given) : std::nullopt;
+}
+
+// Longer ones match no pattern that we have, and would only cost.
+constexpr size_t longest_text = 64;
+
+// JSON may hold a whole number where a text is asked for ("all, or a number").
+std::optional<ParameterValue> parse_text(const Parameter& p, const ParameterValue& given) {
+    std::string text;
+    if (const auto* held = std::get_if<std::string>(&given)) text = *held;
+    if (const auto* number = std::get_if<double>(&given)) text = fmt::format("{}", *number);
+    if (text.size() > longest_text || !std::regex_match(text, std::regex(std::string(p.pattern)))) return {};
+    return text;
+}
+
 std::optional<ParameterValue> parse_value(const Parameter& p, const ParameterValue& given) {
     switch (p.kind) {
         case Parameter::Kind::boolean:
             return parse_boolean(given);
         case Parameter::Kind::choice:
             return parse_choice(p, given);
+        case Parameter::Kind::length:
+            return parse_length(p, given);
+        case Parameter::Kind::text:
+            return parse_text(p, given);
         default:
             return parse_number(p, given);
     }
@@ -130,6 +159,13 @@ bool ParameterValues::boolean(std::string_view id) const {
 std::string_view ParameterValues::choice(std::string_view id) const {
     const std::string* value = get<std::string>(values_, id);
     return value ? std::string_view(*value) : std::string_view();
+}
+
+std::optional<Length> ParameterValues::length(std::string_view id) const {
+    if (const double* value = get<double>(values_, id)) return Length{*value, false};
+    const std::string* text = get<std::string>(values_, id);
+    if (!text || !text->ends_with('u')) return {};
+    return Length{coppice::parse_number(text->substr(0, text->size() - 1)).value_or(0), true};
 }
 
 }  // namespace coppice

@@ -15,7 +15,14 @@ namespace coppice {
 using ParameterValue = std::variant<bool, double, std::string>;
 
 struct Parameter {
-    enum class Kind { boolean, number, integer, choice };
+    enum class Kind {
+        boolean,
+        number,
+        integer,
+        choice,
+        length,  // a number of mean edges, or text like "0.01u": in mesh units
+        text,    // what `pattern` matches
+    };
 
     std::string_view id;
     std::string_view title;  // what it means, one sentence
@@ -26,7 +33,17 @@ struct Parameter {
     std::optional<double> maximum = {};
     bool minimum_excluded = false;
     std::span<const std::string_view> choices = {};
-    bool ends_run = false;  // given, it is a target of its own: no default ratio then
+    std::string_view pattern = {};  // of a text: an ECMAScript expression for all of it, without ^ and $
+    std::string_view form = {};     // of a text: what the pattern asks for, in words
+    bool ends_run = false;          // given, it is a target of its own: no default ratio then
+};
+
+// A distance in the mesh: its own units, or multiples of its mean edge.
+struct Length {
+    double value = 0;
+    bool in_mesh_units = false;
+
+    double in(double mean_edge) const { return in_mesh_units ? value : value * mean_edge; }
 };
 
 // Parsed values, by id. Only values that were given or have a default.
@@ -40,7 +57,8 @@ class ParameterValues {
 
     std::optional<double> number(std::string_view id) const;
     bool boolean(std::string_view id) const;             // false when unset
-    std::string_view choice(std::string_view id) const;  // empty when unset
+    std::string_view choice(std::string_view id) const;  // or text; empty when unset
+    std::optional<Length> length(std::string_view id) const;
     const std::map<std::string, ParameterValue, std::less<>>& all() const { return values_; }
 
   private:

@@ -46,7 +46,10 @@ std::string_view type_of(Parameter::Kind kind) {
         case Parameter::Kind::integer:
             return "integer";
         case Parameter::Kind::choice:
+        case Parameter::Kind::text:
             return "string";
+        case Parameter::Kind::length:
+            return "[number, string]";
     }
     return {};
 }
@@ -65,6 +68,10 @@ std::string parameter_schema(const Parameter& parameter) {
     text += fmt::format("          type: {}\n", type_of(parameter.kind));
     if (!parameter.choices.empty())
         text += fmt::format("          enum: [{}]\n", fmt::join(parameter.choices, ", "));
+    if (!parameter.pattern.empty())
+        text += fmt::format("          pattern: {}\n", quote(fmt::format("^(?:{})$", parameter.pattern)));
+    if (parameter.kind == Parameter::Kind::length)
+        text += fmt::format("          pattern: {}\n", quote("^[0-9.eE+-]+u?$"));
     if (parameter.minimum) {
         text += fmt::format("          {}: {}\n", parameter.minimum_excluded ? "exclusiveMinimum" : "minimum",
                             *parameter.minimum);

@@ -1,5 +1,6 @@
 #include "core/simplify/parameter.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,6 +29,12 @@ const std::vector<Parameter>& parameters() {
          .minimum = 1,
          .maximum = 16},
         {.id = "strict", .title = "", .kind = Kind::boolean},
+        {.id = "radius", .title = "", .kind = Kind::length, .unit = "mean edges", .minimum = 0},
+        {.id = "count",
+         .title = "",
+         .kind = Kind::text,
+         .pattern = "all|[1-9][0-9]*",
+         .form = "all or a whole number"},
     };
     return list;
 }
@@ -54,6 +61,27 @@ TEST(ParameterValues, reads_text_and_typed_values_alike) {
     EXPECT_EQ(parse({{"color", "green"}}).choice("color"), "green");
 }
 
+TEST(ParameterValues, reads_lengths_in_mean_edges_or_with_the_suffix_u_in_mesh_units) {
+    EXPECT_EQ(parse({{"radius", "0.5"}}).length("radius")->in(10), 5);
+    EXPECT_EQ(parse({{"radius", 0.5}}).length("radius")->in(10), 5);
+    EXPECT_EQ(parse({{"radius", "0.5u"}}).length("radius")->in(10), 0.5);
+    for (const char* text : {"u", "-1u", "1 u", "1uu", "nanu"}) {
+        EXPECT_EQ(refusal([&] {
+                      parse({{"radius", text}});
+                  }).message(),
+                  fmt::format("parameters.radius is \"{}\"; it takes a number from 0 up (mean edges), or one "
+                              "with the suffix u (mesh units)",
+                              text));
+    }
+}
+
+TEST(ParameterValues, reads_texts_that_match_their_pattern_and_whole_numbers_for_them) {
+    EXPECT_EQ(parse({{"count", "all"}}).choice("count"), "all");
+    EXPECT_EQ(parse({{"count", 3.0}}).choice("count"), "3");
+    for (const std::string& text : {std::string("some"), std::string("0"), std::string(1000, '1')})
+        EXPECT_EQ(refusal([&] { parse({{"count", text}}); }).code(), ErrorCode::option_invalid);
+}
+
 TEST(ParameterValues, fills_in_defaults_and_leaves_the_rest_unset) {
     const ParameterValues values = parse({});
     EXPECT_EQ(values.choice("color"), "red");
@@ -69,7 +97,7 @@ TEST(ParameterValues, names_what_it_does_not_know_and_what_there_is) {
     EXPECT_EQ(error.where(), "parameters.colour");
     EXPECT_EQ(error.message(),
               "parameters.colour is not a parameter of this algorithm, which takes color, part, length, "
-              "passes, strict");
+              "passes, strict, radius, count");
 }
 
 struct Wrong {
