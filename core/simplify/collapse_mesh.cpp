@@ -8,6 +8,26 @@
 
 namespace coppice {
 
+namespace {
+
+// Everything but vertices, wedges, their values and triangles.
+Mesh without_geometry(const Mesh& source) {
+    Mesh mesh;
+    mesh.name = source.name;
+    mesh.source_mesh = source.source_mesh;
+    mesh.position_storage = source.position_storage;
+    mesh.slots = source.slots;
+    const auto described = [](const Attribute& a) { return Attribute{a.name, a.components, a.storage}; };
+    for (const Attribute& a : source.attributes) mesh.attributes.push_back(described(a));
+    for (const MorphTarget& target : source.morph_targets) {
+        mesh.morph_targets.emplace_back();
+        for (const Attribute& a : target.deltas) mesh.morph_targets.back().deltas.push_back(described(a));
+    }
+    return mesh;
+}
+
+}  // namespace
+
 CollapseMesh::CollapseMesh(const Mesh& source, const Watch& watch)
     : corner_vertex_(source.triangles.size(), no_index),
       after_(source.triangles.size(), no_index),
@@ -39,10 +59,10 @@ CollapseMesh::CollapseMesh(const Mesh& source, const Watch& watch)
         if (is_live_vertex(v)) box_.extend(positions_[v]);
     }
     if (box_.empty()) return;
-    const Vec3d centre = (box_.min + box_.max) * 0.5;
-    for (Vec3d& p : positions_) p = p - centre;
-    box_.min = box_.min - centre;
-    box_.max = box_.max - centre;
+    centre_ = (box_.min + box_.max) * 0.5;
+    for (Vec3d& p : positions_) p = p - centre_;
+    box_.min = box_.min - centre_;
+    box_.max = box_.max - centre_;
 }
 
 void CollapseMesh::link(uint32_t corner) {
@@ -83,13 +103,23 @@ void CollapseMesh::collapse(uint32_t removed, uint32_t kept, const std::vector<u
             remove_triangle(corner / 3);
             continue;
         }
-        unlink(corner);
         const uint32_t wedge = wedge_map[corner_wedge_[corner] - first_wedge];
         assert(wedge != no_index);
-        corner_wedge_[corner] = wedge;
-        corner_vertex_[corner] = kept;
-        link(corner);
+        set_corner(corner, kept, wedge);
     }
+}
+
+void CollapseMesh::set_corner(uint32_t corner, uint32_t vertex, uint32_t wedge) {
+    unlink(corner);
+    corner_wedge_[corner] = wedge;
+    corner_vertex_[corner] = vertex;
+    link(corner);
+}
+
+void CollapseMesh::move(uint32_t vertex, Vec3d position) {
+    if (moved_.empty()) moved_.resize(positions_.size());
+    moved_[vertex] = true;
+    positions_[vertex] = position;
 }
 
 Mesh CollapseMesh::extract(const Mesh& source, const Watch& watch) const {
@@ -104,6 +134,34 @@ Mesh CollapseMesh::extract(const Mesh& source, const Watch& watch) const {
         mesh.triangle_slot.push_back(source.triangle_slot[t]);
     });
     drop_unused(mesh, watch);
+    return mesh;
+}
+
+Mesh CollapseMesh::extract(const Mesh& source, const WedgeValues& values, const Watch& watch) const {
+    Mesh mesh = without_geometry(source);
+    if (!moved_.empty()) mesh.position_storage = {};
+    std::vector<uint32_t> wedge_number(wedge_count(), no_index), vertex_number(vertex_count(), no_index);
+    std::vector<uint32_t> wedges;
+    const auto vertex = [&](uint32_t v) {
+        if (vertex_number[v] != no_index) return vertex_number[v];
+        const bool moved = !moved_.empty() && moved_[v];
+        mesh.positions.push_back(moved ? to_float(positions_[v] + centre_) : source.positions[v]);
+        return vertex_number[v] = static_cast<uint32_t>(mesh.positions.size() - 1);
+    };
+    watched_loop(triangle_count(), watch, [&](size_t t) {
+        if (!is_live_triangle(static_cast<uint32_t>(t))) return;
+        for (size_t corner = 3 * t; corner < 3 * t + 3; ++corner) {
+            uint32_t& number = wedge_number[corner_wedge_[corner]];
+            if (number == no_index) {
+                number = static_cast<uint32_t>(wedges.size());
+                wedges.push_back(corner_wedge_[corner]);
+                mesh.wedge_vertex.push_back(vertex(corner_vertex_[corner]));
+            }
+            mesh.triangles.push_back(number);
+        }
+        mesh.triangle_slot.push_back(source.triangle_slot[t]);
+    });
+    values.write(wedges, mesh);
     return mesh;
 }
 

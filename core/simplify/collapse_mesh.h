@@ -8,11 +8,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/watch.h"
 #include "core/mesh/bounds.h"
 #include "core/mesh/mesh.h"
+#include "core/simplify/wedge_values.h"
 
 namespace coppice {
 
@@ -59,15 +61,27 @@ class CollapseMesh {
     // uses).
     void collapse(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map);
 
+    // For what is not the collapse of an edge. Wedges may then be used at other vertices than they began at:
+    // such a mesh is extracted with the values of its wedges.
+    void set_corner(uint32_t corner, uint32_t vertex, uint32_t wedge);
+    void remove_triangle(uint32_t triangle);
+    void move(uint32_t vertex, Vec3d position);
+
     // The source with the live triangles and what they use.
     Mesh extract(const Mesh& source, const Watch& watch = {}) const;
+    // The same after wedges were blended or vertices moved. Moved positions are no longer those that the
+    // source stored, so storage becomes float32.
+    Mesh extract(const Mesh& source, const WedgeValues& values, const Watch& watch = {}) const;
+    // What WedgeValues is made of.
+    std::span<const uint32_t> wedge_sources() const { return wedge_source_; }
 
   private:
     void link(uint32_t corner);
     void unlink(uint32_t corner);
-    void remove_triangle(uint32_t triangle);
 
     std::vector<Vec3d> positions_;
+    std::vector<bool> moved_;  // per vertex; empty until one is
+    Vec3d centre_;             // of the source's box
     Bounds box_;
     std::vector<uint32_t> corner_vertex_, corner_wedge_;  // 3 per triangle; no_index when dead
     std::vector<uint32_t> after_, before_;                // per corner: its vertex' list

@@ -1,6 +1,7 @@
 #include "core/simplify/collapse_rules.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -30,27 +31,43 @@ Vec3d area_normal(Vec3d a, Vec3d b, Vec3d c) {
     return cross(b - a, c - a);
 }
 
-double angle(Vec3d from, Vec3d a, Vec3d b) {
-    return std::acos(std::clamp(dot(normalized(a - from), normalized(b - from)), -1.0, 1.0));
+// Mean cosine between a normal, of any length but none, and where the surface faced at the corners, as far as
+// that is known.
+double agreement_with_corners(Vec3d normal, const std::array<Vec3f, 3>& facings) {
+    double sum = 0, known = 0;
+    for (const Vec3f facing : facings) {
+        sum += dot(to_double(facing), normal);
+        known += facing == Vec3f{} ? 0 : 1;
+    }
+    return known > 0 ? sum / (known * length(normal)) : 1;
 }
 
 // Per vertex the mean of its triangles' normals, weighted by their angles there (the pseudo-normal of
 // Baerentzen and Aanaes 2005, which tells inside from outside at any edge): unit, or zero where sheets lie
 // back to back.
-std::vector<Vec3f> facing(const CollapseMesh& mesh, std::span<const Vec3f> normals, const Watch& watch) {
+std::vector<Vec3f> facings(const CollapseMesh& mesh, std::span<const Vec3f> normals, const Watch& watch) {
+    struct Sum {
+        Vec3d normals;
+        double angles = 0;
+    };
+    std::vector<Sum> sums(mesh.vertex_count());
+    watched_loop(mesh.triangle_count(), watch, [&](size_t t) {
+        if (!mesh.is_live_triangle(static_cast<uint32_t>(t))) return;
+        std::array<uint32_t, 3> v{};
+        std::array<Vec3d, 3> along;  // unit, from each corner to the next
+        for (uint32_t k = 0; k < 3; ++k) v[k] = mesh.corner_vertex(static_cast<uint32_t>(3 * t) + k);
+        for (size_t k = 0; k < 3; ++k)
+            along[k] = normalized(mesh.position(v[(k + 1) % 3]) - mesh.position(v[k]));
+        for (size_t k = 0; k < 3; ++k) {
+            const double angle = std::acos(std::clamp(-dot(along[k], along[(k + 2) % 3]), -1.0, 1.0));
+            sums[v[k]].normals = sums[v[k]].normals + to_double(normals[t]) * angle;
+            sums[v[k]].angles += angle;
+        }
+    });
     std::vector<Vec3f> result(mesh.vertex_count());
     watched_loop(mesh.vertex_count(), watch, [&](size_t v) {
-        const auto vertex = static_cast<uint32_t>(v);
-        Vec3d sum;
-        double angles = 0;
-        for (uint32_t c = mesh.first_corner(vertex); c != no_index; c = mesh.corner_after(c)) {
-            const double weight =
-                angle(mesh.position(vertex), mesh.position(mesh.corner_vertex(CollapseMesh::next_corner(c))),
-                      mesh.position(mesh.corner_vertex(CollapseMesh::previous_corner(c))));
-            sum = sum + to_double(normals[c / 3]) * weight;
-            angles += weight;
-        }
-        if (length(sum) > 1e-6 * angles) result[v] = to_float(normalized(sum));
+        if (length(sums[v].normals) > 1e-6 * sums[v].angles)
+            result[v] = to_float(normalized(sums[v].normals));
     });
     return result;
 }
@@ -72,7 +89,7 @@ CollapseRules::CollapseRules(const CollapseMesh& mesh, std::vector<VertexKind> k
         const Vec3d normal = area_normal(a, b, c);
         if (!is_degenerate(a, b, c, normal)) first_normals_[t] = to_float(normalized(normal));
     });
-    facing_ = facing(mesh, first_normals_, watch);
+    facing_ = facings(mesh, first_normals_, watch);
 }
 
 bool CollapseRules::kinds_allow(uint32_t removed, uint32_t kept, const Neighbours& around) const {
@@ -157,44 +174,32 @@ bool CollapseRules::duplicates(uint32_t removed, uint32_t kept) {
     return false;
 }
 
-// Mean cosine between a normal, of any length but none, and where the surface faced at the corners that know.
-double CollapseRules::agreement_with_corners(Vec3d normal, const std::array<uint32_t, 3>& corners) const {
-    double sum = 0, known = 0;
-    for (const uint32_t corner : corners) {
-        const Vec3f facing = facing_[corner];
-        sum += dot(to_double(facing), normal);
-        known += facing == Vec3f{} ? 0 : 1;
-    }
-    return known > 0 ? sum / (known * length(normal)) : 1;
-}
-
 bool CollapseRules::keeps_orientation(uint32_t removed, uint32_t kept) const {
-    const Vec3d from = mesh_.position(removed), to = mesh_.position(kept);
     for (uint32_t c = mesh_.first_corner(removed); c != no_index; c = mesh_.corner_after(c)) {
         const uint32_t next = mesh_.corner_vertex(CollapseMesh::next_corner(c));
         const uint32_t previous = mesh_.corner_vertex(CollapseMesh::previous_corner(c));
         if (next == kept || previous == kept) continue;
-        const Vec3d a = mesh_.position(next), b = mesh_.position(previous);
-        const Vec3d before = area_normal(from, a, b), after = area_normal(to, a, b);
-        const double size = length(after);
-        const Vec3f first = first_normals_[c / 3];
-        if (is_degenerate(to, a, b, after)) {
-            if (!is_degenerate(from, a, b, before)) return false;
-            continue;
-        }
-        if (!is_degenerate(from, a, b, before) &&
-            dot(before, after) < least_cosine_at_once * length(before) * size) {
-            return false;
-        }
-        if (first != Vec3f{} && dot(to_double(first), after) < least_cosine_since_start * size) return false;
-        const double agreement = agreement_with_corners(after, {kept, next, previous});
-        if (agreement < least_cosine_to_corners &&
-            (is_degenerate(from, a, b, before) ||
-             agreement < agreement_with_corners(before, {removed, next, previous}))) {
-            return false;
-        }
+        if (!keeps_orientation(c, mesh_.position(kept), facing_[kept])) return false;
     }
     return true;
+}
+
+bool CollapseRules::keeps_orientation(uint32_t corner, Vec3d to, Vec3f facing) const {
+    const uint32_t vertex = mesh_.corner_vertex(corner);
+    const uint32_t next = mesh_.corner_vertex(CollapseMesh::next_corner(corner));
+    const uint32_t previous = mesh_.corner_vertex(CollapseMesh::previous_corner(corner));
+    const Vec3d from = mesh_.position(vertex), a = mesh_.position(next), b = mesh_.position(previous);
+    const Vec3d before = area_normal(from, a, b), after = area_normal(to, a, b);
+    const bool was_degenerate = is_degenerate(from, a, b, before);
+    if (is_degenerate(to, a, b, after)) return was_degenerate;
+    const double size = length(after);
+    if (!was_degenerate && dot(before, after) < least_cosine_at_once * length(before) * size) return false;
+    const Vec3f first = first_normals_[corner / 3];
+    if (first != Vec3f{} && dot(to_double(first), after) < least_cosine_since_start * size) return false;
+    const Vec3f ahead = facing_[next], behind = facing_[previous];
+    const double agreement = agreement_with_corners(after, {facing, ahead, behind});
+    return agreement >= least_cosine_to_corners ||
+           (!was_degenerate && agreement >= agreement_with_corners(before, {facing_[vertex], ahead, behind}));
 }
 
 }  // namespace coppice

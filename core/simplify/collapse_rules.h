@@ -1,7 +1,6 @@
 // Whether moving all triangles of one vertex to a neighbour keeps the surface sound.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -42,11 +41,19 @@ class CollapseRules {
     // degenerate. The edge exists.
     Refusal check(uint32_t removed, uint32_t kept);
 
+    // What check() asks of each triangle that moves: whether the one at this corner may have it at `to`,
+    // where the surface faced `facing` (unit, or zero where that is not known).
+    bool keeps_orientation(uint32_t corner, Vec3d to, Vec3f facing) const;
+
+    VertexKind kind(uint32_t vertex) const { return kinds_[vertex]; }
+    // Where the surface faced at a vertex at the start. Of one that stands for several now, their mean.
+    Vec3f facing(uint32_t vertex) const { return facing_[vertex]; }
+    void set_facing(uint32_t vertex, Vec3f facing) { facing_[vertex] = facing; }
+
   private:
     bool keeps_topology(uint32_t removed, uint32_t kept);
     bool duplicates(uint32_t removed, uint32_t kept);
     bool keeps_orientation(uint32_t removed, uint32_t kept) const;
-    double agreement_with_corners(Vec3d normal, const std::array<uint32_t, 3>& corners) const;
     uint32_t edge_uses(uint32_t vertex, uint32_t other, bool ring_gathered) const;
 
     const CollapseMesh& mesh_;

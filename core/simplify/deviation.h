@@ -20,6 +20,8 @@ class Deviation {
     // the collapse.
     double after(uint32_t removed, uint32_t kept) const;
 
+    double carried(uint32_t vertex) const { return carried_[vertex]; }
+
     // To be called with every collapse, with the result of after().
     void merge(uint32_t kept, double deviation);
 

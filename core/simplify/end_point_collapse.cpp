@@ -1,20 +1,8 @@
 #include "core/simplify/end_point_collapse.h"
 
-#include <algorithm>
-
 namespace coppice {
 
 namespace {
-
-// The box may lose 1 % of its diagonal; rounding in writers needs a little of that.
-constexpr double bounds_tolerance_of_diagonal = 0.009;
-// Borders and seams may move by 5 %, likewise.
-constexpr double line_tolerance_of_diagonal = 0.049;
-
-double way(uint32_t first, uint32_t now, std::optional<uint64_t> target) {
-    if (!target || *target >= first) return target ? 1.0 : 0.0;
-    return static_cast<double>(first - now) / static_cast<double>(first - *target);
-}
 
 Features features_for(const CollapseMesh& mesh, const EndPointOptions& options, const Watch& watch) {
     Features features = find_features(mesh, watch);
@@ -40,21 +28,8 @@ EndPointCollapse::EndPointCollapse(const Mesh& source, const Target& target, con
       deviation_(mesh_),
       wedge_map_(mesh_, clouds_),
       around_(mesh_.vertex_count()),
-      first_triangles_(mesh_.live_triangles()),
-      first_vertices_(mesh_.live_vertices()) {
+      count_(target, mesh_) {
     watch.check();
-}
-
-bool EndPointCollapse::done() const {
-    if (target_.triangles && mesh_.live_triangles() <= *target_.triangles) return true;
-    return target_.vertices && mesh_.live_vertices() <= *target_.vertices;
-}
-
-double EndPointCollapse::fraction() const {
-    const double by_triangles = way(first_triangles_, mesh_.live_triangles(), target_.triangles);
-    const double by_vertices = way(first_vertices_, mesh_.live_vertices(), target_.vertices);
-    const double by_removal = first_triangles_ > 0 ? way(first_triangles_, mesh_.live_triangles(), 0) : 1.0;
-    return std::clamp(std::max({by_triangles, by_vertices, by_removal}), 0.0, 1.0);
 }
 
 std::optional<double> EndPointCollapse::cost_around(uint32_t removed, uint32_t kept) {

@@ -20,6 +20,7 @@
 #include "core/simplify/deviation.h"
 #include "core/simplify/line_guard.h"
 #include "core/simplify/neighbours.h"
+#include "core/simplify/target.h"
 #include "core/simplify/unified_error.h"
 #include "core/simplify/uv_guard.h"
 #include "core/simplify/wedge_map.h"
@@ -55,8 +56,8 @@ class EndPointCollapse {
     EndPointCollapse& operator=(const EndPointCollapse&) = delete;
 
     const CollapseMesh& mesh() const { return mesh_; }
-    bool done() const;        // at or below the target's triangles and vertices
-    double fraction() const;  // of the way there, 0..1
+    bool done() const { return count_.is_met(mesh_); }
+    double fraction() const { return count_.fraction(mesh_); }  // of the way there, 0..1
 
     // The cheapest candidate of a vertex that comes after the given one; the cheapest of all without.
     Candidate next_candidate(uint32_t removed, std::optional<Candidate> after = {});
@@ -90,7 +91,7 @@ class EndPointCollapse {
     Deviation deviation_;
     WedgeMap wedge_map_;
     Neighbours around_;
-    uint32_t first_triangles_, first_vertices_;
+    TargetCount count_;
     double next_deviation_ = 0;              // of the collapse that check() has just let through
     std::array<uint64_t, 5> refusals_ = {};  // by Refusal
     uint64_t beyond_max_geometric_error_ = 0;

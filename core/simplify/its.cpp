@@ -3,9 +3,9 @@
 #include <array>
 #include <string>
 
-#include "core/mesh/weld.h"
 #include "core/simplify/end_point_collapse.h"
 #include "core/simplify/its_order.h"
+#include "core/simplify/target.h"
 
 namespace coppice {
 
@@ -56,21 +56,10 @@ std::span<const Parameter> parameters() {
     return list;
 }
 
-// Nothing to do. An empty mesh is always small enough.
-bool is_small_enough(const Mesh& mesh, const Target& target) {
-    if (mesh.triangle_count() == 0) return true;
-    if (target.triangles && mesh.triangle_count() <= *target.triangles) return true;
-    return target.vertices && mesh.vertex_count() <= *target.vertices;
-}
-
 Simplified simplify(const Mesh& source, std::span<const Transform> instances, const Target& target,
                     const ParameterValues& values, const Watch& watch) {
     watch.check();
-    if (is_small_enough(source, target)) {
-        Simplified same = {.mesh = source, .stop_reason = StopReason::already_smaller};
-        drop_unused(same.mesh, watch);
-        return same;
-    }
+    if (is_small_enough(source, target)) return already_smaller(source, watch);
     const bool faithful = values.choice("mode") == "faithful";
     const EndPointOptions options = {
         .weights = faithful ? PlaneWeights::count : PlaneWeights::area,

@@ -1,6 +1,7 @@
 #include "core/simplify/line_guard.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace coppice {
 
@@ -59,6 +60,62 @@ void LineGuard::remove(uint32_t removed, uint32_t kept) {
     const uint32_t other = (*ends)[1].vertex;
     relink(kept, removed, {other, away});
     relink(other, removed, {kept, away});
+}
+
+std::optional<LineGuard::Stretch> LineGuard::stretch(std::span<const uint32_t> vertices, Vec3d point) const {
+    const auto holds = [&](uint32_t v) {
+        return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
+    };
+    const auto first =
+        std::find_if(vertices.begin(), vertices.end(), [this](uint32_t v) { return on_line_[v]; });
+    const auto count = std::count_if(first, vertices.end(), [this](uint32_t v) { return on_line_[v]; });
+    if (count == 0) return {};
+    Stretch found;
+    double away = 0;
+    std::ptrdiff_t passed = 1;
+    for (const size_t side : {size_t{0}, size_t{1}}) {
+        uint32_t from = no_index, at = *first;
+        Next next = next_[at][side];
+        for (; next.vertex != no_index && on_line_[next.vertex] && holds(next.vertex); ++passed) {
+            if (passed == count) return {};  // all around
+            from = at, at = next.vertex;
+            away = std::max(away, next.away);
+            next = next_[at][next_[at][0].vertex == from ? 1 : 0];
+        }
+        if (next.vertex == no_index) return {};
+        away = std::max(away, next.away);
+        found.outermost[side] = at;
+        if (!holds(next.vertex)) found.beyond[side] = next;
+    }
+    if (passed != count || found.beyond[0].vertex == found.beyond[1].vertex) return {};
+    double farthest = 0;
+    for (const uint32_t v : vertices) {
+        if (!on_line_[v]) continue;
+        double near = std::numeric_limits<double>::infinity();
+        for (const Next& end : found.beyond) {
+            if (end.vertex == no_index) continue;
+            near = std::min(near, distance_to_segment(mesh_.position(v), point, mesh_.position(end.vertex)));
+        }
+        farthest = std::max(farthest, near);
+    }
+    found.away = away + farthest;
+    return found;
+}
+
+bool LineGuard::may_merge(std::span<const uint32_t> vertices, Vec3d point) const {
+    const auto found = stretch(vertices, point);
+    return found && found->away <= tolerance_;
+}
+
+void LineGuard::merge(std::span<const uint32_t> vertices, uint32_t kept, Vec3d point) {
+    const auto found = stretch(vertices, point);
+    if (!found) return;
+    for (const size_t side : {size_t{0}, size_t{1}}) {
+        const uint32_t beyond = found->beyond[side].vertex;
+        if (beyond != no_index) relink(beyond, found->outermost[side], {kept, found->away});
+    }
+    for (const size_t side : {size_t{0}, size_t{1}})
+        next_[kept][side] = {found->beyond[side].vertex, found->away};
 }
 
 void LineGuard::relink(uint32_t vertex, uint32_t from, Next to) {

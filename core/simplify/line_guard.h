@@ -5,12 +5,16 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/simplify/collapse_mesh.h"
 #include "core/simplify/vertex_kind.h"
 
 namespace coppice {
+
+// Borders and seams may move by 5 % of the diagonal; rounding in writers needs a little of that.
+inline constexpr double line_tolerance_of_diagonal = 0.049;
 
 // What quadrics weigh against everything else, this limits: a target that can only be met by cutting the
 // corner off a square sheet, or off a box with a seam around it, is not met.
@@ -24,6 +28,11 @@ class LineGuard {
     bool may_remove(uint32_t removed, uint32_t kept) const;
     void remove(uint32_t removed, uint32_t kept);
 
+    // The same for several vertices, two or more of them on a line or at its end, that become one at a point
+    // of their stretch of it. They must be neighbours along one line, and not all of it.
+    bool may_merge(std::span<const uint32_t> vertices, Vec3d point) const;
+    void merge(std::span<const uint32_t> vertices, uint32_t kept, Vec3d point);
+
   private:
     // Where the line goes from a vertex, and a bound on how far that edge is from the original line.
     struct Next {
@@ -31,6 +40,14 @@ class LineGuard {
         double away = 0;
     };
     using Both = std::array<Next, 2>;
+
+    // Neighbours along a line, with where the line goes on at both ends; no vertex where it ends among them.
+    struct Stretch {
+        std::array<uint32_t, 2> outermost = {no_index, no_index};
+        Both beyond = {};
+        double away = 0;  // once they are one
+    };
+    std::optional<Stretch> stretch(std::span<const uint32_t> vertices, Vec3d point) const;
 
     // The neighbours of `removed` with `kept` first; none where they are no neighbours on a line.
     std::optional<Both> along(uint32_t removed, uint32_t kept) const;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/watch.h"
@@ -23,14 +24,24 @@ class UvGuard {
     // for the pair.
     bool may_collapse(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) const;
 
+    bool any() const { return sets_ > 0; }  // else all is allowed
+    // The same for one triangle whose corner gets a blend of wedges.
+    bool may_blend(uint32_t corner, std::span<const WedgeShare> shares) const;
+    // Whether a triangle of these wedges, each of its own chart, is wound as all was around them.
+    bool is_wound_well(const std::array<uint32_t, 3>& wedges) const;
+    // To be called where WedgeValues::blend is.
+    void blend(std::span<const WedgeShare> shares, uint32_t into);
+
   private:
     struct Uv {
         float u = 0, v = 0;
     };
+    using Uvs = std::array<Uv, 3>;  // of a triangle's corners
     void add_set(const CollapseMesh& mesh, const Attribute& uvs, uint32_t set, const Watch& watch);
     using Wedges = std::array<uint32_t, 3>;  // of a triangle's corners
-    bool keeps_winding(const Wedges& before, const Wedges& after, uint32_t set) const;
-    int8_t winding(const Wedges& wedges, uint32_t set) const;  // 1 or -1, 0 without area
+    bool keeps_winding(int8_t was, int8_t is, const Wedges& charts_of, uint32_t set) const;
+    Uvs uvs_of(const Wedges& wedges, uint32_t set) const;
+    Uv blended(std::span<const WedgeShare> shares, uint32_t set) const;
     const Uv& uv(uint32_t wedge, uint32_t set) const { return uvs_[size_t{wedge} * sets_ + set]; }
 
     const CollapseMesh& mesh_;
