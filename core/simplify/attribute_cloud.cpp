@@ -1,5 +1,6 @@
 #include "core/simplify/attribute_cloud.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/watched_loop.h"
@@ -53,7 +54,7 @@ enum class Role { none, normal, uv, color };
 Role role(const Attribute& a) {
     if (a.name == "NORMAL" && a.components == 3) return Role::normal;
     if (a.name.starts_with("TEXCOORD_") && a.components == 2) return Role::uv;
-    if (a.name.starts_with("COLOR_") && a.components >= 3) return Role::color;
+    if (a.name.starts_with("COLOR_") && a.components >= 3 && a.components <= 4) return Role::color;
     return Role::none;
 }
 
@@ -91,8 +92,9 @@ AttributeClouds::AttributeClouds(const CollapseMesh& mesh, const Mesh& source, c
     clouds_.resize(size_t{mesh.wedge_count()} * cloud_stride_);
     const std::vector<double> areas = wedge_areas(mesh, watch);
     for (size_t i = 0; i < taken.size(); ++i) {
-        fill(mesh, source, taken[i], channels_[i], scale_of(mesh, source, taken[i], scales, watch), areas,
-             watch);
+        const double scale = scale_of(mesh, source, taken[i], scales, watch);
+        if (role(source.attributes[taken[i]]) == Role::normal) channels_[i].unit_length = scale;
+        fill(mesh, source, taken[i], channels_[i], scale, areas, watch);
     }
 }
 
@@ -125,8 +127,41 @@ void AttributeClouds::fill(const CollapseMesh& mesh, const Mesh& source, size_t 
 }
 
 double AttributeClouds::squared_error(uint32_t from, uint32_t at, uint32_t channel) const {
+    return squared_error(from, values_.data() + at * value_stride_ + channels_[channel].value_offset,
+                         channel);
+}
+
+double AttributeClouds::squared_error(uint32_t from, std::span<const WedgeShare> at, uint32_t channel) const {
+    return squared_error(from, mean(at, channels_[channel]).data(), channel);
+}
+
+AttributeClouds::Value AttributeClouds::mean(std::span<const WedgeShare> shares,
+                                             const Channel& channel) const {
+    Value value = {};
+    double squared = 0;
+    for (uint32_t k = 0; k < channel.components; ++k) {
+        for (const WedgeShare& share : shares)
+            value[k] += share.weight * values_[share.wedge * value_stride_ + channel.value_offset + k];
+        squared += value[k] * value[k];
+    }
+    if (channel.unit_length > 0 && squared > 0) {
+        for (double& v : value) v *= channel.unit_length / std::sqrt(squared);
+    }
+    return value;
+}
+
+void AttributeClouds::blend(std::span<const WedgeShare> shares, uint32_t into) {
+    blended_.resize(value_stride_);
+    for (const Channel& channel : channels_) {
+        const Value value = mean(shares, channel);
+        std::copy_n(value.begin(), channel.components, blended_.begin() + channel.value_offset);
+    }
+    std::copy(blended_.begin(), blended_.end(),
+              values_.begin() + static_cast<std::ptrdiff_t>(into * value_stride_));
+}
+
+double AttributeClouds::squared_error(uint32_t from, const double* value, uint32_t channel) const {
     const uint32_t n = channels_[channel].components;
-    const double* value = values_.data() + at * value_stride_ + channels_[channel].value_offset;
     const double* cloud = clouds_.data() + cloud_at(from, channel);
     double squared = 0, product = 0;
     for (uint32_t k = 0; k < n; ++k) {

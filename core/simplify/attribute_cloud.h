@@ -7,6 +7,7 @@
 // use it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -40,6 +41,12 @@ class AttributeClouds {
     double squared_error(uint32_t from, uint32_t at, uint32_t channel) const;
     double squared_error(uint32_t from, uint32_t at) const;
 
+    // Pi of the cloud of `from` at a blend of values.
+    double squared_error(uint32_t from, std::span<const WedgeShare> at, uint32_t channel) const;
+
+    // Gives a wedge the blend of these values; its cloud stays. Normals are made of unit length again.
+    void blend(std::span<const WedgeShare> shares, uint32_t into);
+
     // Adds the clouds of `from` to those of `to`.
     void merge(uint32_t from, uint32_t to);
 
@@ -48,7 +55,13 @@ class AttributeClouds {
         uint32_t components = 0;
         uint32_t value_offset = 0;  // in a wedge's values
         uint32_t cloud_offset = 0;  // in a wedge's clouds: X0, X1 (components), X2
+        double unit_length = 0;     // of a normal, as scaled; 0: any
     };
+
+    static constexpr uint32_t most_components = 4;
+    using Value = std::array<double, most_components>;
+    Value mean(std::span<const WedgeShare> shares, const Channel& channel) const;
+    double squared_error(uint32_t from, const double* value, uint32_t channel) const;
 
     size_t cloud_at(uint32_t wedge, uint32_t channel) const {
         return size_t{wedge} * cloud_stride_ + channels_[channel].cloud_offset;
@@ -59,8 +72,9 @@ class AttributeClouds {
 
     std::vector<Channel> channels_;
     size_t value_stride_ = 0, cloud_stride_ = 0;
-    std::vector<double> values_;  // scaled, value_stride_ per wedge
-    std::vector<double> clouds_;  // cloud_stride_ per wedge
+    std::vector<double> values_;   // scaled, value_stride_ per wedge
+    std::vector<double> clouds_;   // cloud_stride_ per wedge
+    std::vector<double> blended_;  // scratch
 };
 
 }  // namespace coppice

@@ -50,8 +50,10 @@ class CollapseRules {
     Vec3f facing(uint32_t vertex) const { return facing_[vertex]; }
     void set_facing(uint32_t vertex, Vec3f facing) { facing_[vertex] = facing; }
 
-  private:
+    // The first part of check().
     bool keeps_topology(uint32_t removed, uint32_t kept);
+
+  private:
     bool duplicates(uint32_t removed, uint32_t kept);
     bool keeps_orientation(uint32_t removed, uint32_t kept) const;
     uint32_t edge_uses(uint32_t vertex, uint32_t other, bool ring_gathered) const;

@@ -6,12 +6,14 @@
 #include <array>
 
 #include "core/base/error.h"
+#include "core/simplify/gaps.h"
+#include "core/simplify/garland_heckbert.h"
 #include "core/simplify/its.h"
 
 namespace coppice {
 
 std::span<const Algorithm> algorithms() {
-    static const std::array<Algorithm, 1> list = {its()};
+    static const std::array<Algorithm, 3> list = {its(), quadric(), gaps()};
     return list;
 }
 

@@ -1,0 +1,241 @@
+#include "core/simplify/edge_collapse.h"
+
+#include <algorithm>
+
+namespace coppice {
+
+EdgeCollapse::EdgeCollapse(const Mesh& source, const Target& target, const CollapseOptions& options,
+                           const MakeError& make_error, const Watch& watch)
+    : source_(source),
+      target_(target),
+      options_(options),
+      mesh_(source, watch),
+      features_(find_features(mesh_, watch)),
+      clouds_(mesh_, source, options.scales, watch),
+      projection_(mesh_),
+      error_(make_error({mesh_, features_.edges, clouds_, projection_})),
+      rules_(mesh_, features_.kinds, watch),
+      bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal()),
+      lines_(mesh_, features_, line_tolerance_of_diagonal * mesh_.box().diagonal()),
+      uvs_(mesh_, source, watch),
+      deviation_(mesh_),
+      wedge_map_(mesh_, clouds_),
+      values_(source, mesh_.wedge_sources()),
+      around_(mesh_.vertex_count()),
+      around_other_(mesh_.vertex_count()),
+      count_(target, mesh_) {
+    watch.check();
+}
+
+Freedom EdgeCollapse::freedom_between(uint32_t a, uint32_t b) const {
+    const VertexKind kind = features_.kinds[a];
+    if (kind != features_.kinds[b]) return Freedom::end_point;
+    if (kind == VertexKind::manifold) return options_.freedom;
+    return is_on_line(a) ? std::min(options_.freedom, Freedom::segment) : Freedom::end_point;
+}
+
+bool EdgeCollapse::allowed(uint32_t removed, uint32_t kept, bool ring_gathered) {
+    if (!rules_.reads_neighbours(removed)) return rules_.kinds_allow(removed, kept, around_);
+    if (ring_gathered) return rules_.kinds_allow(removed, kept, around_);
+    if (mesh_.valence(removed) > largest_removable_valence) return false;
+    around_other_.gather(mesh_, removed);
+    return rules_.kinds_allow(removed, kept, around_other_);
+}
+
+std::optional<EdgeCollapse::Merge> EdgeCollapse::place(uint32_t removed, uint32_t kept, Freedom freedom) {
+    if (!wedge_map_.find(removed, kept)) return {};
+    const Placed placed = error_->place(removed, kept, freedom, wedge_map_.wedges());
+    return Merge{removed, kept, placed, !(placed.at == mesh_.position(kept))};
+}
+
+// around_ holds the owner's ring, if ring_gathered.
+std::optional<EdgeCollapse::Merge> EdgeCollapse::best_merge(uint32_t owner, uint32_t other,
+                                                            bool ring_gathered) {
+    std::optional<Merge> best;
+    if (options_.freedom == Freedom::end_point) {
+        if (allowed(owner, other, ring_gathered)) best = place(owner, other, Freedom::end_point);
+    } else {
+        const bool forward = allowed(owner, other, ring_gathered), backward = allowed(other, owner, false);
+        const Freedom freedom = freedom_between(owner, other);
+        if (freedom != Freedom::end_point && forward && backward) {
+            const bool owner_goes = mesh_.valence(owner) <= mesh_.valence(other);
+            best = owner_goes ? place(owner, other, freedom) : place(other, owner, freedom);
+        } else {
+            if (forward) best = place(owner, other, Freedom::end_point);
+            if (backward) {
+                const std::optional<Merge> back = place(other, owner, Freedom::end_point);
+                if (back && (!best || back->placed.error < best->placed.error)) best = back;
+            }
+        }
+    }
+    if (!best) {
+        ++refusals_[static_cast<size_t>(Refusal::locked)];
+    } else if (options_.error_limit && best->placed.error > *options_.error_limit) {
+        ++beyond_error_limit_;
+        best.reset();
+    }
+    return best;
+}
+
+std::optional<double> EdgeCollapse::cost(uint32_t owner, uint32_t other) {
+    if (options_.freedom != Freedom::end_point && other < owner) return {};
+    const std::optional<Merge> merge = best_merge(owner, other, false);
+    return merge ? std::optional(merge->placed.error) : std::nullopt;
+}
+
+// Around a vertex inside the surface each neighbour comes next at one corner, so none has to be looked for.
+void EdgeCollapse::ring(uint32_t vertex, std::vector<uint32_t>& out) {
+    out.clear();
+    if (features_.kinds[vertex] == VertexKind::manifold) {
+        for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c))
+            out.push_back(mesh_.corner_vertex(CollapseMesh::next_corner(c)));
+        return;
+    }
+    around_other_.gather(mesh_, vertex);
+    out = around_other_.all();
+}
+
+EdgeCandidate EdgeCollapse::next_candidate(uint32_t owner, std::optional<EdgeCandidate> after) {
+    if (mesh_.valence(owner) > largest_removable_valence) {
+        ++refusals_[static_cast<size_t>(Refusal::locked)];
+        return {};
+    }
+    if (rules_.reads_neighbours(owner)) around_.gather(mesh_, owner);
+    ring(owner, ring_);
+    EdgeCandidate best;
+    for (const uint32_t other : ring_) {
+        if (options_.freedom != Freedom::end_point && other < owner) continue;
+        const std::optional<Merge> merge = best_merge(owner, other, true);
+        if (!merge) continue;
+        const EdgeCandidate candidate = {other, merge->placed.error};
+        if (after && !(*after < candidate)) continue;
+        if (candidate < best) best = candidate;
+    }
+    return best;
+}
+
+Refusal EdgeCollapse::check(const Merge& m) {
+    if (!wedge_map_.find(m.removed, m.kept)) return Refusal::locked;
+    const Refusal refusal = m.moves ? check_move(m) : check_end_point(m.removed, m.kept);
+    if (refusal != Refusal::none) return refusal;
+    next_deviation_ = m.moves ? deviation(m) : deviation_.after(m.removed, m.kept);
+    const bool too_far = target_.error_model_units && next_deviation_ > *target_.error_model_units;
+    return too_far ? Refusal::error : Refusal::none;
+}
+
+Refusal EdgeCollapse::check_end_point(uint32_t removed, uint32_t kept) {
+    if (!bounds_.may_remove(removed)) return Refusal::bounds;
+    if (!lines_.may_remove(removed, kept)) return Refusal::topology;
+    if (!uvs_.may_collapse(removed, kept, wedge_map_.wedges())) return Refusal::topology;
+    return rules_.check(removed, kept);
+}
+
+Refusal EdgeCollapse::check_move(const Merge& m) {
+    const std::array<uint32_t, 2> ends = {m.removed, m.kept};
+    if (!bounds_.may_merge(ends, m.placed.at)) return Refusal::bounds;
+    if (is_on_line(m.kept) && !lines_.may_merge(ends, m.placed.at)) return Refusal::topology;
+    projection_.project(m.removed, m.kept, wedge_map_.wedges(), m.placed.at);
+    if (!rules_.keeps_topology(m.removed, m.kept)) return Refusal::topology;
+    const bool sound = may_move_fan(m.removed, m.kept, m) && may_move_fan(m.kept, m.removed, m);
+    return sound ? Refusal::none : Refusal::topology;
+}
+
+// The triangles at one end that are not at the other: none may be turned over, in space or in its texture.
+bool EdgeCollapse::may_move_fan(uint32_t vertex, uint32_t other, const Merge& m) {
+    const Vec3f facing = mean_facing(m);
+    const uint32_t first = mesh_.wedge_begin(m.removed);
+    for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c)) {
+        if (mesh_.corner_vertex(CollapseMesh::next_corner(c)) == other ||
+            mesh_.corner_vertex(CollapseMesh::previous_corner(c)) == other) {
+            continue;
+        }
+        if (!rules_.keeps_orientation(c, m.placed.at, facing)) return false;
+        const uint32_t wedge = mesh_.corner_wedge(c);
+        const uint32_t becomes = vertex == m.kept ? wedge : wedge_map_.wedges()[wedge - first];
+        if (!uvs_.may_blend(c, projection_.shares(becomes))) return false;
+    }
+    return true;
+}
+
+// Where the surface faced at what the vertex that stays will stand for.
+Vec3f EdgeCollapse::mean_facing(const Merge& m) const {
+    return to_float(normalized(to_double(rules_.facing(m.removed)) + to_double(rules_.facing(m.kept))));
+}
+
+// Both ends are measured from what replaces both rings, on top of what each has gathered before.
+double EdgeCollapse::deviation(const Merge& m) const {
+    const Vec3d p = mesh_.position(m.removed), q = mesh_.position(m.kept), at = m.placed.at;
+    double from_p = length(p - at), from_q = length(q - at);
+    for (const auto& [vertex, other] : {std::pair(m.removed, m.kept), std::pair(m.kept, m.removed)}) {
+        for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c)) {
+            const uint32_t a = mesh_.corner_vertex(CollapseMesh::next_corner(c));
+            const uint32_t b = mesh_.corner_vertex(CollapseMesh::previous_corner(c));
+            if (a == other || b == other) continue;
+            from_p = std::min(from_p, distance_to_triangle(p, at, mesh_.position(a), mesh_.position(b)));
+            from_q = std::min(from_q, distance_to_triangle(q, at, mesh_.position(a), mesh_.position(b)));
+        }
+    }
+    return std::max(deviation_.carried(m.removed) + from_p, deviation_.carried(m.kept) + from_q);
+}
+
+void EdgeCollapse::blend_wedges(uint32_t kept) {
+    for (uint32_t w = mesh_.wedge_begin(kept); w < mesh_.wedge_end(kept); ++w) {
+        const std::span<const WedgeShare> shares = projection_.shares(w);
+        if (shares.empty()) continue;
+        values_.blend(shares, w);
+        clouds_.blend(shares, w);
+        uvs_.blend(shares, w);
+    }
+}
+
+void EdgeCollapse::apply(const Merge& m) {
+    if (m.moves) blend_wedges(m.kept);
+    error_->merge(m.removed, m.kept, wedge_map_.wedges());
+    deviation_.merge(m.kept, next_deviation_);
+    const std::array<uint32_t, 2> ends = {m.removed, m.kept};
+    if (m.moves) {
+        bounds_.merge(ends, m.kept, m.placed.at);
+        if (is_on_line(m.kept)) lines_.merge(ends, m.kept, m.placed.at);
+        rules_.set_facing(m.kept, mean_facing(m));
+    } else {
+        bounds_.remove(m.removed);
+        lines_.remove(m.removed, m.kept);
+    }
+    mesh_.collapse(m.removed, m.kept, wedge_map_.wedges());
+    if (m.moves) mesh_.move(m.kept, m.placed.at);
+}
+
+std::optional<Collapsed> EdgeCollapse::try_collapse(uint32_t owner, uint32_t other) {
+    const std::optional<Merge> merge = best_merge(owner, other, false);
+    if (!merge) return {};
+    const Refusal refusal = check(*merge);
+    if (refusal != Refusal::none) {
+        ++refusals_[static_cast<size_t>(refusal)];
+        return {};
+    }
+    apply(*merge);
+    return Collapsed{merge->removed, merge->kept};
+}
+
+void EdgeCollapse::forget_refusals() {
+    refusals_ = {};
+    beyond_error_limit_ = 0;
+}
+
+// A limit that was set is the reason wherever it stopped anything; else what stopped most.
+StopReason EdgeCollapse::reason_for_refusals() const {
+    const auto count = [this](Refusal r) { return refusals_[static_cast<size_t>(r)]; };
+    if (count(Refusal::error) > 0) return StopReason::error_limit;
+    if (beyond_error_limit_ > 0) return StopReason::threshold;
+    if (count(Refusal::topology) == 0 && count(Refusal::bounds) == 0) return StopReason::locked;
+    return count(Refusal::topology) >= count(Refusal::bounds) ? StopReason::topology : StopReason::bounds;
+}
+
+Simplified EdgeCollapse::finish(StopReason reason, const Watch& watch) const {
+    return {.mesh = mesh_.extract(source_, values_, watch),
+            .error_model_units = deviation_.largest(),
+            .certified = false,
+            .stop_reason = reason};
+}
+
+}  // namespace coppice

@@ -1,0 +1,129 @@
+#include "core/simplify/plane_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/base/watched_loop.h"
+
+namespace coppice {
+
+namespace {
+
+constexpr double seam_weight = 1;  // for each side
+
+// The point may lie this many edges from the edge's middle; beyond, planes are nearly parallel.
+constexpr double farthest_in_edges = 1.5;
+// Below this part of its trace cubed, the determinant of A is rounding.
+constexpr double least_determinant = 1e-9;
+
+// Solves Ap = -b by Cramer's rule.
+std::optional<Vec3d> solve(const Quadric& q) {
+    const double cxx = q.yy * q.zz - q.yz * q.yz, cxy = q.xz * q.yz - q.xy * q.zz,
+                 cxz = q.xy * q.yz - q.xz * q.yy;
+    const double determinant = q.xx * cxx + q.xy * cxy + q.xz * cxz;
+    const double trace = q.xx + q.yy + q.zz;
+    if (!(determinant > least_determinant * trace * trace * trace)) return {};
+    const double cyy = q.xx * q.zz - q.xz * q.xz, cyz = q.xy * q.xz - q.xx * q.yz,
+                 czz = q.xx * q.yy - q.xy * q.xy;
+    return Vec3d{cxx * q.bx + cxy * q.by + cxz * q.bz, cxy * q.bx + cyy * q.by + cyz * q.bz,
+                 cxz * q.bx + cyz * q.by + czz * q.bz} *
+           (-1 / determinant);
+}
+
+// On the line b + t (a - b) the quadric is a parabola with its least at t = -d.(Ab + b) / d.Ad, d = a - b.
+Vec3d least_between(const Quadric& q, Vec3d a, Vec3d b) {
+    const Vec3d d = a - b;
+    const auto times = [&](Vec3d p) {
+        return Vec3d{q.xx * p.x + q.xy * p.y + q.xz * p.z, q.xy * p.x + q.yy * p.y + q.yz * p.z,
+                     q.xz * p.x + q.yz * p.y + q.zz * p.z};
+    };
+    const double curvature = dot(d, times(d));
+    const double scale = (q.xx + q.yy + q.zz) * squared_length(d);
+    if (!(curvature > 1e-12 * scale)) {  // flat: nothing speaks for an end
+        const Vec3d middle = (a + b) * 0.5;
+        const double at_middle = q(middle), least_end = std::min(q(a), q(b));
+        return at_middle <= least_end ? middle : q(a) < q(b) ? a : b;
+    }
+    const double t = -dot(d, times(b) + Vec3d{q.bx, q.by, q.bz}) / curvature;
+    return b + d * std::clamp(t, 0.0, 1.0);
+}
+
+}  // namespace
+
+Vec3d least_point(const Quadric& q, Vec3d a, Vec3d b, Freedom freedom) {
+    if (freedom == Freedom::end_point) return b;
+    if (freedom == Freedom::anywhere) {
+        const std::optional<Vec3d> point = solve(q);
+        const double reach = farthest_in_edges * length(a - b);
+        if (point && squared_length(*point - (a + b) * 0.5) <= reach * reach) return *point;
+    }
+    return least_between(q, a, b);
+}
+
+PlaneQuadrics::PlaneQuadrics(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch)
+    : quadrics_(parts.mesh.vertex_count()), weights_(parts.mesh.vertex_count(), 0.0) {
+    add_triangles(parts.mesh, options, watch);
+    add_lines(parts, options, watch);
+}
+
+void PlaneQuadrics::add_triangles(const CollapseMesh& mesh, const PlaneOptions& options, const Watch& watch) {
+    watched_loop(mesh.triangle_count(), watch, [&](size_t i) {
+        const auto t = static_cast<uint32_t>(i);
+        if (!mesh.is_live_triangle(t)) return;
+        const uint32_t v[] = {mesh.corner_vertex(3 * t), mesh.corner_vertex(3 * t + 1),
+                              mesh.corner_vertex(3 * t + 2)};
+        const Vec3d a = mesh.position(v[0]);
+        const Vec3d twice_area = cross(mesh.position(v[1]) - a, mesh.position(v[2]) - a);
+        const double area = 0.5 * length(twice_area);
+        if (!(area > 0)) return;
+        const Vec3d normal = normalized(twice_area);
+        const double weight =
+            (options.by_area ? area : 1) * (options.instance_weight ? options.instance_weight(normal) : 1);
+        const Quadric plane = plane_quadric(normal, a, weight);
+        for (const uint32_t vertex : v) {
+            quadrics_[vertex] += plane;
+            weights_[vertex] += weight;
+        }
+    });
+}
+
+// Planes through border and seam edges, perpendicular to the triangle.
+void PlaneQuadrics::add_lines(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch) {
+    const CollapseMesh& mesh = parts.mesh;
+    watched_loop(parts.features.size(), watch, [&](size_t i) {
+        const FeatureEdge& f = parts.features[i];
+        const Vec3d a = mesh.position(mesh.corner_vertex(3 * f.triangle));
+        const Vec3d normal = cross(mesh.position(mesh.corner_vertex(3 * f.triangle + 1)) - a,
+                                   mesh.position(mesh.corner_vertex(3 * f.triangle + 2)) - a);
+        const Vec3d edge = mesh.position(f.b) - mesh.position(f.a);
+        const Vec3d across = normalized(cross(edge, normal));
+        const double weight = squared_length(edge) * (f.is_border ? options.boundary_weight : seam_weight) *
+                              (options.instance_weight ? options.instance_weight(across) : 1);
+        const Quadric plane = plane_quadric(across, mesh.position(f.a), weight);
+        quadrics_[f.a] += plane;
+        quadrics_[f.b] += plane;
+    });
+}
+
+void PlaneQuadrics::merge(uint32_t removed, uint32_t kept) {
+    quadrics_[kept] += quadrics_[removed];
+    weights_[kept] += weights_[removed];
+}
+
+PlaneError::PlaneError(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch)
+    : mesh_(parts.mesh), planes_(parts, options, watch) {}
+
+Placed PlaneError::place(uint32_t removed, uint32_t kept, Freedom freedom,
+                         const std::vector<uint32_t>& /*wedge_map*/) const {
+    const Vec3d a = mesh_.position(removed), b = mesh_.position(kept);
+    const Quadric q = planes_.sum(removed, kept);
+    const Vec3d at = least_point(q, a, b, freedom);
+    return {at, q(at) + flat_preference * planes_.weight(removed, kept) * squared_length(a - b)};
+}
+
+void PlaneError::merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& /*wedge_map*/) {
+    planes_.merge(removed, kept);
+}
+
+}  // namespace coppice

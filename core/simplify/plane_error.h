@@ -1,0 +1,63 @@
+// The quadric error of Garland and Heckbert 1997: squared distances to the planes of the triangles that a
+// vertex stands for, and of planes that hold borders and seams.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/base/watch.h"
+#include "core/simplify/edge_collapse.h"
+#include "core/simplify/quadric.h"
+
+namespace coppice {
+
+struct PlaneOptions {
+    bool by_area = true;          // a plane weighs as much as its triangle, else 1
+    double boundary_weight = 10;  // of the plane across a border, times its edge squared; 1 for seams
+    // By how much more a plane with this unit normal weighs for the instances that show it. None: 1.
+    std::function<double(Vec3d)> instance_weight = {};
+};
+
+// The planes of every vertex.
+class PlaneQuadrics {
+  public:
+    PlaneQuadrics(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch);
+
+    Quadric sum(uint32_t a, uint32_t b) const { return quadrics_[a] + quadrics_[b]; }
+    // Of the triangles' planes alone: what their quadric is divided by to get a mean squared distance.
+    double weight(uint32_t a, uint32_t b) const { return weights_[a] + weights_[b]; }
+    void merge(uint32_t removed, uint32_t kept);
+
+  private:
+    void add_triangles(const CollapseMesh& mesh, const PlaneOptions& options, const Watch& watch);
+    void add_lines(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch);
+
+    std::vector<Quadric> quadrics_;
+    std::vector<double> weights_;
+};
+
+// The point of the given freedom that is least far from the planes. anywhere: where Ap = -b, if that has one
+// solution near the edge; else, as for segment, the best point between the ends a and b. end_point: b.
+Vec3d least_point(const Quadric& q, Vec3d a, Vec3d b, Freedom freedom);
+
+// A collapse costs the sum of squared distances. Where planes cannot tell edges apart (on flat ground) short
+// ones go first, by a part too small to matter elsewhere.
+class PlaneError final : public CollapseError {
+  public:
+    PlaneError(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch);
+
+    Placed place(uint32_t removed, uint32_t kept, Freedom freedom,
+                 const std::vector<uint32_t>& wedge_map) const override;
+    void merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) override;
+
+  private:
+    const CollapseMesh& mesh_;
+    PlaneQuadrics planes_;
+};
+
+// Part of the squared length of an edge that is added to the mean squared distance of its planes.
+inline constexpr double flat_preference = 1e-6;
+
+}  // namespace coppice
