@@ -101,14 +101,28 @@ void describe(Report& report, const Algorithm& algorithm, const OptimizeOptions&
 // Replaces each of the scene's meshes by its simplified self.
 std::vector<MeshReport> simplify(Scene& scene, const Placement& placement, const Algorithm& algorithm,
                                  const OptimizeOptions& options, const Watch& watch, Report& report) {
-    const std::vector<Target> targets = plan_targets(scene, placement, algorithm, report.parameters, options);
-    std::vector<Simplified> simplified = simplify_meshes(scene.meshes, placement, targets, algorithm,
-                                                         report.parameters, options.threads, watch);
+    std::vector<Target> targets;
+    std::vector<Simplified> simplified;
+    if (algorithm.simplify_scene != nullptr) {
+        const SceneTarget target = plan_scene_target(scene, placement, algorithm, options);
+        simplified =
+            algorithm.simplify_scene(scene.meshes, placement.of_mesh, target, report.parameters, watch);
+        targets = target.of_mesh;
+    } else {
+        targets = plan_targets(scene, placement, algorithm, report.parameters, options);
+        simplified = simplify_meshes(scene.meshes, placement, targets, algorithm, report.parameters,
+                                     options.threads, watch);
+    }
     std::vector<MeshReport> reports = mesh_reports(scene, placement, simplified);
     report.thresholds_used = thresholds(simplified);
     append(report.warnings, check_result(scene, placement, targets, simplified, options));
     for (size_t i = 0; i < simplified.size(); ++i) scene.meshes[i] = std::move(simplified[i].mesh);
     return reports;
+}
+
+// With instances=expand every instance becomes a mesh of its own before it is simplified.
+bool wants_copies(const Report& report) {
+    return report.parameters.choice("instances") == "expand";
 }
 
 // Plain OBJ stores a copy per instance whatever is asked; the writer makes them.
@@ -118,7 +132,7 @@ WrittenAsset write(Scene& scene, const Placement& placement, const WriteOptions&
     if (output.instancing == Instancing::expand && !flattened) scene = expand_meshes(scene);
     WrittenAsset asset = write_asset(scene, output, watch);
 
-    const std::vector<uint64_t> counts = flattened ? placement.counts() : instances_per_mesh(scene);
+    const std::vector<uint64_t> counts = instances_per_mesh(scene);
     append(report.warnings, asset.warnings);
     report.output = summarize(scene, counts, output.format, asset.bytes.size());
     report.savings = savings(report.input.bytes, report.output.bytes, asset.mesh_bytes,
@@ -153,8 +167,10 @@ Optimized optimize(const Upload& upload, const OptimizeOptions& options, const R
     append(report.warnings, std::move(input.scene.warnings));
 
     report.meshes = timed(watch, "simplify", times.simplify, [&] {
-        return simplify(input.scene, placement, algorithm, options, watch.part(read_ends, simplify_ends),
-                        report);
+        const Watch own = watch.part(read_ends, simplify_ends);
+        if (!wants_copies(report)) return simplify(input.scene, placement, algorithm, options, own, report);
+        input.scene = expand_meshes(input.scene);
+        return simplify(input.scene, place(input.scene), algorithm, options, own, report);
     });
 
     result.asset = timed(watch, "write", times.write, [&] {

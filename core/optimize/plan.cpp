@@ -86,6 +86,25 @@ std::vector<uint64_t> split_in_proportion(uint64_t total, std::span<const uint64
     return parts;
 }
 
+SceneTarget plan_scene_target(const Scene& scene, const Placement& placement, const Algorithm& algorithm,
+                              const OptimizeOptions& options) {
+    SceneTarget target;
+    target.of_mesh.resize(scene.meshes.size());
+    double drawn = 0;
+    for (size_t i = 0; i < scene.meshes.size(); ++i) {
+        drawn += static_cast<double>(scene.meshes[i].triangle_count() * placement.of_mesh[i].size());
+        if (options.error)
+            target.of_mesh[i].error_model_units = *options.error * placement.diagonal / placement.scales[i];
+    }
+    const std::optional<double> ratio = gives_target(algorithm, options) ? options.ratio : 0.5;
+    if (ratio) target.triangles = static_cast<uint64_t>(std::llround(*ratio * drawn));
+    if (options.triangles) {
+        target.triangles = options.triangles;
+        target.rendered = false;
+    }
+    return target;
+}
+
 std::vector<Target> plan_targets(const Scene& scene, const Placement& placement, const Algorithm& algorithm,
                                  const ParameterValues& parameters, const OptimizeOptions& options) {
     const bool counts_vertices = parameters.choice("stop") == "vertices";

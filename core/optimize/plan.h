@@ -30,6 +30,11 @@ Placement place(const Scene& scene);
 std::vector<Target> plan_targets(const Scene& scene, const Placement& placement, const Algorithm& algorithm,
                                  const ParameterValues& parameters, const OptimizeOptions& options);
 
+// The same for an algorithm that weighs meshes against each other: ratio counts what the scene draws,
+// triangles what it stores.
+SceneTarget plan_scene_target(const Scene& scene, const Placement& placement, const Algorithm& algorithm,
+                              const OptimizeOptions& options);
+
 // Splits `total` in proportion to `sizes` by largest remainders: parts sum to total, part <= size, and no
 // part of a non-empty size is 0, unless total is too small or too large for that. Ties go to the lower index.
 std::vector<uint64_t> split_in_proportion(uint64_t total, std::span<const uint64_t> sizes);

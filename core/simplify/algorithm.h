@@ -44,12 +44,20 @@ struct Simplified {
     std::optional<double> threshold_used = {};  // of an algorithm that has one, in that parameter's unit
 };
 
+// When to stop a whole scene, for algorithms that weigh its meshes against each other.
+struct SceneTarget {
+    std::optional<uint64_t> triangles = {};  // stop at or below
+    bool rendered = true;         // which count as often as they are drawn; else as they are stored
+    std::vector<Target> of_mesh;  // limits of each mesh: only the error is set
+};
+
 struct Algorithm {
     std::string_view id;
     std::string_view title;
     std::string_view citation;
     std::span<const Parameter> parameters;
-    bool instance_aware = false;                 // the instances of a mesh weigh in what is kept of it
+    bool instance_aware = false;  // the instances of a mesh weigh in what is kept of it
+    bool keeps_values = false;    // positions and attributes of the result are some of the mesh's, untouched
     uint32_t bytes_per_triangle = 400;           // at most this much memory, beside the mesh and its result
     double bounds_tolerance_of_diagonal = 0.01;  // how far each side of the box may move
 
@@ -58,6 +66,13 @@ struct Algorithm {
     // mesh otherwise.
     Simplified (*simplify)(const Mesh& mesh, std::span<const Transform> instances, const Target& target,
                            const ParameterValues& parameters, const Watch& watch) = nullptr;
+
+    // In its place, where the meshes of a scene are weighed against each other: all at once, results in their
+    // order. A mesh without instances stays as it is.
+    std::vector<Simplified> (*simplify_scene)(std::span<const Mesh> meshes,
+                                              std::span<const std::vector<Transform>> instances,
+                                              const SceneTarget& target, const ParameterValues& parameters,
+                                              const Watch& watch) = nullptr;
 };
 
 }  // namespace coppice

@@ -8,6 +8,7 @@ EdgeCollapse::EdgeCollapse(const Mesh& source, const Target& target, const Colla
                            const MakeError& make_error, const Watch& watch)
     : source_(source),
       target_(target),
+      has_values_(!source.attributes.empty() || !source.morph_targets.empty()),
       options_(options),
       mesh_(source, watch),
       features_(find_features(mesh_, watch)),
@@ -134,7 +135,7 @@ Refusal EdgeCollapse::check_move(const Merge& m) {
     const std::array<uint32_t, 2> ends = {m.removed, m.kept};
     if (!bounds_.may_merge(ends, m.placed.at)) return Refusal::bounds;
     if (is_on_line(m.kept) && !lines_.may_merge(ends, m.placed.at)) return Refusal::topology;
-    projection_.project(m.removed, m.kept, wedge_map_.wedges(), m.placed.at);
+    if (has_values_) projection_.project(m.removed, m.kept, wedge_map_.wedges(), m.placed.at);
     if (!rules_.keeps_topology(m.removed, m.kept)) return Refusal::topology;
     const bool sound = may_move_fan(m.removed, m.kept, m) && may_move_fan(m.kept, m.removed, m);
     return sound ? Refusal::none : Refusal::topology;
@@ -150,6 +151,7 @@ bool EdgeCollapse::may_move_fan(uint32_t vertex, uint32_t other, const Merge& m)
             continue;
         }
         if (!rules_.keeps_orientation(c, m.placed.at, facing)) return false;
+        if (!uvs_.any()) continue;
         const uint32_t wedge = mesh_.corner_wedge(c);
         const uint32_t becomes = vertex == m.kept ? wedge : wedge_map_.wedges()[wedge - first];
         if (!uvs_.may_blend(c, projection_.shares(becomes))) return false;
@@ -189,7 +191,7 @@ void EdgeCollapse::blend_wedges(uint32_t kept) {
 }
 
 void EdgeCollapse::apply(const Merge& m) {
-    if (m.moves) blend_wedges(m.kept);
+    if (m.moves && has_values_) blend_wedges(m.kept);
     error_->merge(m.removed, m.kept, wedge_map_.wedges());
     deviation_.merge(m.kept, next_deviation_);
     const std::array<uint32_t, 2> ends = {m.removed, m.kept};
@@ -215,6 +217,14 @@ std::optional<Collapsed> EdgeCollapse::try_collapse(uint32_t owner, uint32_t oth
     }
     apply(*merge);
     return Collapsed{merge->removed, merge->kept};
+}
+
+bool EdgeCollapse::may_collapse(uint32_t removed, uint32_t kept) {
+    const std::optional<Merge> merge = best_merge(removed, kept, false);
+    if (!merge) return false;
+    const Refusal refusal = check(*merge);
+    if (refusal != Refusal::none) ++refusals_[static_cast<size_t>(refusal)];
+    return refusal == Refusal::none;
 }
 
 void EdgeCollapse::forget_refusals() {

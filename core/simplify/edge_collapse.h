@@ -89,6 +89,9 @@ class EdgeCollapse {
     std::optional<Collapsed> try_collapse(uint32_t owner, uint32_t other);
     void ring(uint32_t vertex, std::vector<uint32_t>& out);
 
+    // With end points only, for who ranks edges otherwise.
+    bool may_collapse(uint32_t removed, uint32_t kept);
+
     // Refusals are counted; they explain why nothing is left to collapse.
     void forget_refusals();
     StopReason reason_for_refusals() const;
@@ -120,6 +123,7 @@ class EdgeCollapse {
 
     const Mesh& source_;
     const Target& target_;
+    bool has_values_;  // that wedges get where they move
     CollapseOptions options_;
     CollapseMesh mesh_;
     Features features_;

@@ -8,12 +8,14 @@
 #include "core/base/error.h"
 #include "core/simplify/gaps.h"
 #include "core/simplify/garland_heckbert.h"
+#include "core/simplify/ias.h"
 #include "core/simplify/its.h"
+#include "core/simplify/openmesh.h"
 
 namespace coppice {
 
 std::span<const Algorithm> algorithms() {
-    static const std::array<Algorithm, 3> list = {its(), quadric(), gaps()};
+    static const std::array<Algorithm, 5> list = {its(), ias(), gaps(), quadric(), openmesh()};
     return list;
 }
 

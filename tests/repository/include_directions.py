@@ -44,6 +44,7 @@ LIBRARIES = {
     r"meshoptimizer\.h": ["core/format/gltf", "core/encode"],
     r"zip\.h": ["core/format"],
     r"png\.h": ["core/sample"],
+    r"OpenMesh/": ["core/simplify"],
     r"(tbb|oneapi)/": ["core/base"],
     r"spdlog/": ["server", "cli"],
     r"CLI/": ["cli"],
