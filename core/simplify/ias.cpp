@@ -7,6 +7,7 @@
 #include "core/simplify/edge_collapse.h"
 #include "core/simplify/instance_weights.h"
 #include "core/simplify/plane_error.h"
+#include "core/simplify/target.h"
 
 namespace coppice {
 
@@ -58,11 +59,16 @@ class SceneSimplification {
     }
 
     std::vector<Simplified> run() {
-        if (!done()) collapse();
+        const bool is_small_enough = done();
+        if (!is_small_enough) collapse();
         std::vector<Simplified> results;
         for (uint32_t m = 0; m < meshes_.size(); ++m) {
             if (!members_[m]) {
                 results.push_back({.mesh = meshes_[m], .stop_reason = StopReason::already_smaller});
+                continue;
+            }
+            if (is_small_enough) {
+                results.push_back(already_smaller(meshes_[m], watch_));
                 continue;
             }
             EdgeCollapse& work = members_[m]->work();
