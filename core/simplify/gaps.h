@@ -11,6 +11,8 @@
 //
 // Departures:
 //   - Scales of attributes: attribute_cloud.h; the paper's are not known.
+//   - Only edges are pairs; the paper's threshold that joins what lies near each other, and its area test,
+//   are not there yet.
 //   - Gamma is sqrt(Q / S) with quadrics weighted by area, so that it is a length.
 #pragma once
 

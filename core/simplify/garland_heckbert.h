@@ -19,7 +19,7 @@
 //   of the tessellation (the authors' own later choice, 1998). none is the paper's.
 //   - Planes across borders weigh boundary_weight times the edge's squared length, as the paper proposes
 //   without a number.
-//   - pair_distance, for pairs that no edge joins, as in the paper's t; 0 by default.
+//   - Only edges are pairs, as with the paper's t = 0.
 //   - On flat ground, where all costs are 0, short edges go first.
 #pragma once
 
