@@ -21,7 +21,9 @@ SelfIntersections find(const Mesh& mesh, unsigned threads = 2) {
     return find_self_intersections(surface, bvh, threads, {});
 }
 
-int sign_of(__int128 value) {
+__extension__ using Wide = __int128;
+
+int sign_of(Wide value) {
     return value > 0 ? 1 : (value < 0 ? -1 : 0);
 }
 
@@ -41,10 +43,10 @@ TEST(Orientation, has_the_sign_that_whole_numbers_have) {
             }
             if (i % 4 == 0) p[3][2] += 1;
         }
-        const auto at = [&](size_t v, size_t k) { return static_cast<__int128>(p[v][k] - p[3][k]); };
-        const __int128 determinant = at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) -
-                                     at(0, 1) * (at(1, 0) * at(2, 2) - at(1, 2) * at(2, 0)) +
-                                     at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0));
+        const auto at = [&](size_t v, size_t k) { return static_cast<Wide>(p[v][k] - p[3][k]); };
+        const Wide determinant = at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) -
+                                 at(0, 1) * (at(1, 0) * at(2, 2) - at(1, 2) * at(2, 0)) +
+                                 at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0));
         const auto point = [&](size_t v) {
             return Vec3f{std::ldexp(static_cast<float>(p[v][0]), -30),
                          std::ldexp(static_cast<float>(p[v][1]), -30),
