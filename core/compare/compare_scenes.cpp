@@ -129,6 +129,7 @@ class Comparer {
         out.surface = summarize(sums);
         out.reference = elements_of(reference_, watch_.part(0.9, 0.95));
         out.candidate = elements_of(candidate_, watch_.part(0.95, 1));
+        watch_.report(1);
         return out;
     }
 

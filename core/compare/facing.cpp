@@ -1,9 +1,9 @@
 #include "core/compare/facing.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
-#include "core/base/watched_loop.h"
 #include "core/base/watched_parallel.h"
 #include "core/compare/attributes.h"
 
@@ -28,7 +28,7 @@ double orientation_in_texture(const Surface& surface, uint32_t triangle) {
 
 // What the reference says at one place.
 struct Vote {
-    double cosine = -2;
+    double cosine = 0;
     double texture = 0;  // -1, 0, 1
 };
 
@@ -36,15 +36,14 @@ Vote vote_at(const SearchedSurface& reference, Vec3d place, Vec3d unit_normal, u
     const Bvh::Nearest nearest = reference.bvh.nearest(place, hint);
     hint = nearest.triangle;
     const double radius = nearest.distance() * (1 + as_near) + as_near * reference.diagonal;
-    Vote vote;
+    std::optional<Vote> best;
     reference.bvh.visit_within(place, radius * radius, [&](uint32_t triangle, const TrianglePoint&) {
         const Vec3d normal = normalized(reference.surface.facet_normal(triangle));
         const double cosine = dot(normal, unit_normal);
-        if (squared_length(normal) > 0 && cosine > vote.cosine)
-            vote = {cosine, orientation_in_texture(reference.surface, triangle)};
+        if (squared_length(normal) > 0 && (!best || cosine > best->cosine))
+            best = {cosine, orientation_in_texture(reference.surface, triangle)};
     });
-    if (vote.cosine < -1) vote.cosine = 0;
-    return vote;
+    return best.value_or(Vote{});
 }
 
 void count_flip(const SearchedSurface& reference, const Surface& candidate, uint32_t triangle, uint32_t& hint,
