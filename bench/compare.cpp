@@ -51,7 +51,7 @@ struct Size {
             tree = std::make_unique<Bvh>(candidate, 1, Watch{});
             tree_of_reference = std::make_unique<Bvh>(reference, 1, Watch{});
         }));
-        const double diagonal = reference.bounds().diagonal();
+        const double diagonal = reference.bounds.diagonal();
         samples = 10 * reference.triangle_count();
         queries.push_back(milliseconds([&] {
             measure_deviation(reference, {candidate, *tree, diagonal}, texture_scale(reference, {}),

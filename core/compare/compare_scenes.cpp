@@ -42,8 +42,8 @@ struct Sums {
 Sums measure(Surface reference, Surface candidate, const CompareOptions& options, unsigned threads,
              const Watch& watch) {
     const Bvh of_reference(reference, threads, watch), of_candidate(candidate, threads, watch);
-    const SearchedSurface to_reference = {reference, of_reference, reference.bounds().diagonal()};
-    const SearchedSurface to_candidate = {candidate, of_candidate, candidate.bounds().diagonal()};
+    const SearchedSurface to_reference = {reference, of_reference, reference.bounds.diagonal()};
+    const SearchedSurface to_candidate = {candidate, of_candidate, candidate.bounds.diagonal()};
     const auto triangles =
         static_cast<double>(std::max(reference.triangle_count(), candidate.triangle_count()));
     const Sampling sampling = {std::max(least_samples, static_cast<uint64_t>(options.samples * triangles)),
@@ -121,7 +121,7 @@ class Comparer {
         const std::vector<Instance> of_candidate = drawn(candidate_, "candidate");
         SceneComparison out;
         out.diagonal = scene_bounds(reference_, of_reference).diagonal();
-        const auto same = find_correspondence(reference_, of_reference, candidate_, of_candidate);
+        const auto same = find_correspondence(reference_, of_reference, candidate_, of_candidate, watch_);
         out.is_by_mesh = same.has_value();
         const Watch measuring = watch_.part(0, 0.9);
         const Sums sums =

@@ -36,7 +36,8 @@ void add_instance(InstanceWeight& weight, const Transform& world) {
 std::optional<Correspondence> find_correspondence(const Scene& reference,
                                                   const std::vector<Instance>& of_reference,
                                                   const Scene& candidate,
-                                                  const std::vector<Instance>& of_candidate) {
+                                                  const std::vector<Instance>& of_candidate,
+                                                  const Watch& watch) {
     const size_t meshes = reference.meshes.size();
     if (candidate.meshes.size() != meshes || of_candidate.size() != of_reference.size()) return {};
     for (size_t i = 0; i < meshes; ++i) {
@@ -47,6 +48,7 @@ std::optional<Correspondence> find_correspondence(const Scene& reference,
     Correspondence found = {std::vector<InstanceWeight>(meshes, {0, 0, 0, 0}),
                             std::vector<uint64_t>(meshes, 0)};
     for (size_t k = 0; k < of_reference.size(); ++k) {
+        if (k % 1024 == 0) watch.check();
         const Instance &a = of_reference[k], &b = of_candidate[k];
         if (a.mesh != b.mesh || !are_alike(a.world, b.world, diagonal)) return {};
         add_instance(found.weights[a.mesh], a.world);

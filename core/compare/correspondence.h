@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/watch.h"
 #include "core/compare/moments.h"
 #include "core/scene/instance.h"
 
@@ -21,7 +22,8 @@ struct Correspondence {
 std::optional<Correspondence> find_correspondence(const Scene& reference,
                                                   const std::vector<Instance>& of_reference,
                                                   const Scene& candidate,
-                                                  const std::vector<Instance>& of_candidate);
+                                                  const std::vector<Instance>& of_candidate,
+                                                  const Watch& watch);
 
 // What an instance adds to the weight of its mesh. Lengths are taken times the largest factor by which the
 // transform stretches anything, areas times the square of its mean factor. For similarities, which is what

@@ -10,7 +10,6 @@
 #include "core/base/watched_sort.h"
 #include "core/compare/attributes.h"
 #include "core/mesh/adjacency.h"
-#include "core/mesh/bounds.h"
 
 namespace coppice {
 
@@ -54,10 +53,10 @@ void count_components(const Mesh& mesh, const Watch& watch, Elements& out) {
             parent[std::max(kept, other)] = std::min(kept, other);
         }
     });
-    for (uint32_t v = 0; v < parent.size(); ++v) {
+    watched_loop(parent.size(), watch, [&](size_t v) {
         out.vertices += used[v] ? 1 : 0;
         out.components += used[v] && parent[v] == v ? 1 : 0;
-    }
+    });
 }
 
 void count_edges(const Mesh& mesh, const Watch& watch, Elements& out) {
@@ -80,8 +79,7 @@ double smallest_angle(Vec3d a, Vec3d b, Vec3d c) {
 }
 
 void measure_triangles(const Mesh& mesh, const Watch& watch, Elements& out) {
-    const Bounds box = bounds(mesh.positions);
-    const Vec3d middle = (box.min + box.max) * 0.5;  // where rounding matters least
+    const Vec3d origin = mesh.corner_position(0, 0);  // near, where rounding matters least
     watched_loop(mesh.triangle_count(), watch, [&](size_t t) {
         const Vec3d a = mesh.corner_position(t, 0), b = mesh.corner_position(t, 1),
                     c = mesh.corner_position(t, 2);
@@ -91,7 +89,7 @@ void measure_triangles(const Mesh& mesh, const Watch& watch, Elements& out) {
             return;
         }
         out.area += length(normal) / 2;
-        out.volume += dot(a - middle, normal) / 6;
+        out.volume += dot(a - origin, normal) / 6;
         out.smallest_angle = std::min(out.smallest_angle, smallest_angle(a, b, c));
     });
 }

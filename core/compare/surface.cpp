@@ -68,6 +68,7 @@ class Builder {
     }
 
     Surface finish() {
+        watched_loop(out_.positions.size(), watch_, [&](size_t v) { out_.bounds.extend(out_.positions[v]); });
         resize_attributes();
         start_with_least_corners();
         sort_triangles();
@@ -152,7 +153,7 @@ class Builder {
 
     // Z-order (Morton 1966) of the centroids, 21 bits for each axis.
     std::vector<uint64_t> places_on_curve() const {
-        const Bounds box = out_.bounds();
+        const Bounds& box = out_.bounds;
         const Vec3d size = box.max - box.min;
         std::vector<uint64_t> places(out_.triangle_count());
         const auto spread = [](double at, double low, double extent) {
@@ -181,7 +182,7 @@ class Builder {
 };
 
 void require_measurable(const Surface& surface) {
-    const Bounds box = surface.bounds();
+    const Bounds& box = surface.bounds;
     const double largest = std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z),
                                      std::abs(box.max.x), std::abs(box.max.y), std::abs(box.max.z)});
     constexpr double limit = 1e60;  // its fourth power, of squared areas, is still a number
@@ -204,12 +205,6 @@ void reorder(Surface& surface, std::span<const uint32_t> order, const Watch& wat
     surface.vertices = std::move(vertices);
     surface.wedges = std::move(wedges);
     surface.has = std::move(has);
-}
-
-Bounds Surface::bounds() const {
-    Bounds box;
-    for (const Vec3d& position : positions) box.extend(position);
-    return box;
 }
 
 Surface make_surface(const Mesh& mesh, const Watch& watch) {

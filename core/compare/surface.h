@@ -23,6 +23,7 @@ struct Surface {
     enum Has : uint8_t { has_normals = 1, has_texture = 2, has_colors = 4 };
 
     std::vector<Vec3d> positions;    // those that a triangle uses
+    Bounds bounds;                   // of positions
     std::vector<uint32_t> vertices;  // 3 per triangle, into positions; counter-clockwise
     std::vector<uint32_t> wedges;    // 3 per triangle, into the attributes below
     std::vector<uint8_t> has;        // per triangle: of Has
@@ -41,7 +42,6 @@ struct Surface {
         const auto [a, b, c] = corners(triangle);
         return cross(b - a, c - a);
     }
-    Bounds bounds() const;
 };
 
 // A mesh in its own frame, to the bit.

@@ -11,7 +11,7 @@ namespace {
 Flips flips(const Mesh& reference, const Mesh& candidate, unsigned threads = 2) {
     Surface from = make_surface(reference, {}), to = make_surface(candidate, {});
     const Bvh bvh(from, threads, {});
-    return count_flips({from, bvh, from.bounds().diagonal()}, to, threads, {});
+    return count_flips({from, bvh, from.bounds.diagonal()}, to, threads, {});
 }
 
 Mesh turned_over(Mesh mesh, size_t triangles) {

@@ -62,7 +62,7 @@ TEST(AgainstCgal, nearest_points_are_as_far) {
             points.push_back(interpolate(sample.weights, a, b, c));
         });
         const std::vector<double> expected = cgal_distances(pair.candidate, points);
-        const double tolerance = 1e-9 * from.bounds().diagonal();
+        const double tolerance = 1e-9 * from.bounds.diagonal();
         double largest_difference = 0;
         for (size_t i = 0; i < points.size(); ++i)
             largest_difference =
@@ -78,7 +78,7 @@ TEST(AgainstCgal, bounds_of_the_largest_distance_hold_theirs) {
         Surface to = make_surface(pair.candidate, {});
         const Surface from = make_surface(pair.reference, {});
         const Bvh bvh(to, 2, {});
-        const double tolerance = 1e-3 * from.bounds().diagonal();
+        const double tolerance = 1e-3 * from.bounds.diagonal();
         const auto theirs = cgal_one_sided_hausdorff(pair.reference, pair.candidate, tolerance);
         if (!theirs) continue;
         ++compared;
