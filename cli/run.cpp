@@ -56,11 +56,13 @@ int run(const std::vector<std::string>& arguments, const Terminal& terminal) {
         "  coppice optimize forest.glb -o small.glb --ratio 0.5\n"
         "  coppice optimize scene.obj -o scene.iobj --error 0.001 --report -\n"
         "  coppice inspect small.glb\n"
+        "  coppice compare forest.glb small.glb\n"
         "  coppice serve --listen 127.0.0.1:8080\n"
         "coppice COMMAND --help tells more.");
-    const std::array<std::pair<const char*, Action>, 5> commands = {{
+    const std::array<std::pair<const char*, Action>, 6> commands = {{
         {"optimize", add_optimize(app, terminal)},
         {"inspect", add_inspect(app, terminal)},
+        {"compare", add_compare(app, terminal)},
         {"algorithms", add_algorithms(app, terminal)},
         {"sample", add_sample(app, terminal)},
         {"serve", add_serve(app, terminal)},

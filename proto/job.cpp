@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "proto/compare_options.h"
 #include "proto/json.h"
 #include "proto/options.h"
 
@@ -32,7 +33,15 @@ nlohmann::ordered_json links(const Job& job) {
 }  // namespace
 
 std::string_view name(JobKind kind) {
-    return kind == JobKind::optimize ? "optimize" : "inspect";
+    switch (kind) {
+        case JobKind::optimize:
+            return "optimize";
+        case JobKind::inspect:
+            return "inspect";
+        case JobKind::compare:
+            return "compare";
+    }
+    return {};
 }
 
 std::string_view name(JobStatus status) {
@@ -74,7 +83,8 @@ std::string print_job(const Job& job) {
     json["created_at"] = print_time(job.created_at);
     json["started_at"] = time_or_null(job.started_at);
     json["finished_at"] = time_or_null(job.finished_at);
-    json["options"] = nlohmann::ordered_json::parse(print_options(job.options));
+    json["options"] = nlohmann::ordered_json::parse(
+        job.kind == JobKind::compare ? print_compare_options(job.comparison) : print_options(job.options));
     json["links"] = links(job);
     if (job.problem) json["problem"] = nlohmann::ordered_json::parse(print_problem(*job.problem));
     return print_json(json);

@@ -1,56 +1,18 @@
 #include "proto/options.h"
 
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <variant>
 
 #include "core/base/error.h"
-#include "core/base/number.h"
 #include "core/simplify/registry.h"
+#include "proto/given_option.h"
 #include "proto/json.h"
 #include "proto/unknown_option.h"
 
 namespace coppice {
 namespace {
-
-// One option as it was given. Text of a query or a flag stands for a number or a boolean; a JSON string does
-// not.
-struct Given {
-    std::string name;
-    std::variant<bool, double, std::string> value;
-    bool is_json = false;
-    std::string shown;  // the value as messages show it
-};
-
-[[noreturn]] void refuse(const Given& given, std::string_view takes) {
-    fail(ErrorCode::option_invalid, given.name,
-         fmt::format("{} is {}; it takes {}", given.name, given.shown, takes));
-}
-
-double number(const Given& given, std::string_view takes) {
-    if (const auto* value = std::get_if<double>(&given.value)) return *value;
-    const auto* text = std::get_if<std::string>(&given.value);
-    if (text == nullptr || given.is_json) refuse(given, takes);
-    const auto value = parse_number(*text);
-    if (!value) refuse(given, takes);
-    return *value;
-}
-
-uint64_t whole_number(const Given& given, std::string_view takes) {
-    // Above 2^53 a double no longer tells neighbours apart; no scene comes near.
-    constexpr double largest = 9007199254740992.0;
-    const double value = number(given, takes);
-    if (value < 0 || value > largest || std::floor(value) != value) refuse(given, takes);
-    return static_cast<uint64_t>(value);
-}
-
-const std::string& text(const Given& given, std::string_view takes) {
-    const auto* value = std::get_if<std::string>(&given.value);
-    if (value == nullptr || value->empty()) refuse(given, takes);
-    return *value;
-}
 
 constexpr auto instancings = std::to_array<std::pair<Instancing, std::string_view>>({
     {Instancing::automatic, "auto"},
@@ -163,33 +125,6 @@ OptimizeOptions finish(bool is_json, OptimizeOptions options) {
     return options;
 }
 
-// Long values are cut, so that a message stays one.
-std::string shorten(std::string value) {
-    constexpr size_t most = 80;
-    if (value.size() > most) value = value.substr(0, most) + "...";
-    return value;
-}
-
-Given from_text(const std::string& name, const std::string& value) {
-    return {
-        .name = name, .value = value, .is_json = false, .shown = value.empty() ? "empty" : shorten(value)};
-}
-
-// Not from_json: nlohmann 3.11.3 (Debian 13) looks that name up for every type and stumbles over this one.
-Given given_in_json(const std::string& name, const nlohmann::json& value) {
-    Given given = {.name = name, .value = {}, .is_json = true, .shown = shorten(print_json(value))};
-    if (value.is_boolean()) {
-        given.value = value.get<bool>();
-    } else if (value.is_number()) {
-        given.value = value.get<double>();
-    } else if (value.is_string()) {
-        given.value = value.get<std::string>();
-    } else {
-        refuse(given, "one value: a number, a text, true or false");
-    }
-    return given;
-}
-
 void apply_parameters(const nlohmann::json& parameters, JobKind kind, OptimizeOptions& options) {
     require(parameters.is_object(), ErrorCode::option_invalid, "parameters",
             "parameters is {}; it takes an object with the algorithm's own parameters",
@@ -210,7 +145,7 @@ OptimizeOptions parse_options(const std::vector<std::pair<std::string, std::stri
         require(name != "parameters", ErrorCode::option_invalid, name,
                 "parameters takes an object in JSON only; here each parameter is an option of its own, "
                 "parameters.NAME");
-        apply(from_text(name, value), kind, options);
+        apply(given_in_text(name, value), kind, options);
     }
     return finish(false, std::move(options));
 }

@@ -25,6 +25,7 @@ constexpr auto rows = std::to_array<Row>({
     {ErrorCode::asset_ambiguous, 400, "The archive holds several assets"},
     {ErrorCode::asset_format_mismatch, 415, "The asset is not what its type says"},
     {ErrorCode::asset_empty, 400, "The asset is empty"},
+    {ErrorCode::asset_no_surface, 422, "The asset has no surface to compare"},
     {ErrorCode::resource_missing, 422, "A resource of the asset is missing"},
     {ErrorCode::resource_forbidden, 422, "A resource of the asset lies outside the upload"},
     {ErrorCode::option_unknown, 400, "There is no such option"},

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/simplify/registry.h"
+#include "proto/asset_json.h"
 #include "proto/json.h"
 
 namespace coppice {
@@ -21,20 +22,6 @@ Json to_json(const ParameterValues& values) {
     Json json = Json::object();
     for (const auto& [id, value] : values.all()) json[id] = to_json(value);
     return json;
-}
-
-Json to_json(const AssetSummary& summary) {
-    return {{"bytes", summary.bytes},
-            {"format", id(summary.format)},
-            {"meshes", summary.meshes},
-            {"instances", summary.instances},
-            {"unique_triangles", summary.unique_triangles},
-            {"rendered_triangles", summary.rendered_triangles},
-            {"unique_vertices", summary.unique_vertices},
-            {"wedges", summary.wedges},
-            {"texture_coordinates", summary.texture_coordinates},
-            {"normals", summary.normals},
-            {"texture_bytes", summary.texture_bytes}};
 }
 
 Json to_json(const StageTimes& times) {
@@ -62,12 +49,6 @@ Json to_json(const Savings& savings) {
 
 Json to_json(const InstanceMapping& mapping) {
     return {{"node", mapping.node}, {"mesh", mapping.mesh}, {"instance", mapping.instance}};
-}
-
-Json to_json(const Warning& warning) {
-    Json json = {{"code", warning.code}, {"message", warning.message}};
-    if (!warning.where.empty()) json["where"] = warning.where;
-    return json;
 }
 
 Json to_json(const std::optional<double>& number) {

@@ -18,6 +18,8 @@ std::string_view name(ErrorCode code) {
             return "asset.format_mismatch";
         case ErrorCode::asset_empty:
             return "asset.empty";
+        case ErrorCode::asset_no_surface:
+            return "asset.no_surface";
         case ErrorCode::resource_missing:
             return "resource.missing";
         case ErrorCode::resource_forbidden:

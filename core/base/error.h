@@ -22,6 +22,7 @@ enum class ErrorCode : uint8_t {
     asset_ambiguous,              // an archive with several assets and no entry option
     asset_format_mismatch,        // content and declared type contradict each other
     asset_empty,                  // no bytes at all
+    asset_no_surface,             // no triangle to compare
     resource_missing,             // a URI that nothing in the upload matches
     resource_forbidden,           // a URI that leaves the upload
     option_unknown,

@@ -10,8 +10,9 @@ namespace coppice {
 // Copyable; the callbacks may be called from any thread that core runs on, one at a time.
 struct Watch {
     std::stop_token stop = {};
-    std::function<void(double fraction)> progress = {};      // 0..1, never goes back
-    std::function<void(std::string_view stage)> stage = {};  // read, discover, simplify, encode, write
+    std::function<void(double fraction)> progress = {};  // 0..1, never goes back
+    std::function<void(std::string_view stage)> stage =
+        {};  // read, discover, simplify, encode, write; compare
 
     // Throws Error{job_cancelled} once stop was requested. Cheap; called at least every 50 ms.
     void check() const;

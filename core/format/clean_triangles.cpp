@@ -20,7 +20,8 @@ void clean_triangles(Mesh& mesh, const std::string& name, const std::string& whe
     const auto warn = [&](const char* kind, size_t count) {
         if (count == 0) return;
         warnings.push_back({fmt::format("repair.{}_triangles", kind),
-                            fmt::format("{} {} triangles of {} were dropped", count, kind, name), where});
+                            fmt::format("{} {} triangles of {} were dropped", count, kind, name), where,
+                            count});
     };
     warn("degenerate", cleaned.degenerate);
     warn("duplicate", cleaned.duplicate);

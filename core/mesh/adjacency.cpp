@@ -1,6 +1,7 @@
 #include "core/mesh/adjacency.h"
 
-#include <algorithm>
+#include "core/base/watched_loop.h"
+#include "core/base/watched_sort.h"
 
 namespace coppice {
 
@@ -18,28 +19,29 @@ VertexTriangles vertex_triangles(const Mesh& mesh) {
     return rows;
 }
 
-std::vector<Edge> edges(const Mesh& mesh) {
+std::vector<Edge> edges(const Mesh& mesh, const Watch& watch) {
     std::vector<Edge> uses;
     uses.reserve(mesh.triangles.size());
-    for (size_t t = 0; t < mesh.triangle_count(); ++t) {
+    watched_loop(mesh.triangle_count(), watch, [&](size_t t) {
         for (size_t corner = 0; corner < 3; ++corner) {
             const uint32_t from = mesh.corner_vertex(t, corner);
             const uint32_t to = mesh.corner_vertex(t, (corner + 1) % 3);
             if (from < to) uses.push_back({from, to, 1, 0});
             if (from > to) uses.push_back({to, from, 0, 1});
         }
-    }
-    std::sort(uses.begin(), uses.end(),
-              [](const Edge& x, const Edge& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+    });
+    watched_sort(uses.begin(), uses.end(), watch,
+                 [](const Edge& x, const Edge& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
     size_t kept = 0;
-    for (const Edge& use : uses) {
+    watched_loop(uses.size(), watch, [&](size_t i) {
+        const Edge use = uses[i];
         if (kept > 0 && uses[kept - 1].a == use.a && uses[kept - 1].b == use.b) {
             uses[kept - 1].forward += use.forward;
             uses[kept - 1].backward += use.backward;
         } else {
             uses[kept++] = use;
         }
-    }
+    });
     uses.resize(kept);
     return uses;
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/watch.h"
 #include "core/mesh/mesh.h"
 
 namespace coppice {
@@ -32,8 +33,8 @@ struct Edge {
     bool is_manifold() const { return uses() <= 2; }
 };
 
-// Every edge once, sorted by (a, b).
-std::vector<Edge> edges(const Mesh& mesh);
+// Every edge once, sorted by (a, b). Throws when the watch is stopped.
+std::vector<Edge> edges(const Mesh& mesh, const Watch& watch = {});
 
 struct Topology {
     size_t border_edges = 0;

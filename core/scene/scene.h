@@ -20,6 +20,7 @@ struct Warning {
     std::string code;
     std::string message;
     std::string where = {};
+    uint64_t count = 0;  // of what was repaired or lost; 0 where it is not counted
 };
 
 struct Image {

@@ -13,8 +13,7 @@ bool remove_unless_needed(const std::string& sha256, JobStore& store, BlobStore&
 
 void remove_job(const std::string& id, JobStore& store, BlobStore& blobs) {
     const JobRecord was = store.remove(id);
-    remove_unless_needed(was.asset.sha256, store, blobs);
-    for (const StoredFile& resource : was.resources) remove_unless_needed(resource.sha256, store, blobs);
+    for (const StoredFile* file : was.input_files()) remove_unless_needed(file->sha256, store, blobs);
     if (!was.result) return;
     remove_unless_needed(was.result->file.sha256, store, blobs);
     remove_unless_needed(was.result->report.sha256, store, blobs);

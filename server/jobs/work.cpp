@@ -3,8 +3,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/optimize/compare.h"
 #include "core/optimize/inspect.h"
 #include "core/optimize/optimize.h"
+#include "proto/comparison.h"
 #include "proto/report.h"
 
 namespace coppice {
@@ -16,24 +18,23 @@ struct LoadedUpload {
     Upload upload;
 };
 
-LoadedUpload load(const JobRecord& record, const BlobStore& blobs, const Watch& watch) {
+LoadedUpload load(const StoredFile& asset, const std::vector<StoredFile>& resources, const BlobStore& blobs,
+                  const Watch& watch) {
     LoadedUpload loaded;
-    loaded.bytes.reserve(record.resources.size() + 1);  // views stay valid
+    loaded.bytes.reserve(resources.size() + 1);  // views stay valid
     const auto load_file = [&](const StoredFile& file) {
         watch.check();
         loaded.bytes.push_back(load_blob(blobs, {file.sha256, file.bytes}));
         return UploadedFile{file.path, file.media_type, loaded.bytes.back()};
     };
-    loaded.upload.asset = load_file(record.asset);
-    for (const StoredFile& resource : record.resources)
-        loaded.upload.resources.push_back(load_file(resource));
-    loaded.upload.entry = record.job.options.entry;
+    loaded.upload.asset = load_file(asset);
+    for (const StoredFile& resource : resources) loaded.upload.resources.push_back(load_file(resource));
     return loaded;
 }
 
 uint64_t bytes_of(const JobRecord& record) {
-    uint64_t bytes = record.asset.bytes;
-    for (const StoredFile& resource : record.resources) bytes += resource.bytes;
+    uint64_t bytes = 0;
+    for (const StoredFile* file : record.input_files()) bytes += file->bytes;
     return bytes;
 }
 
@@ -71,17 +72,47 @@ Worked optimize_upload(const JobRecord& record, const Upload& upload, BlobStore&
     return worked;
 }
 
-Worked inspect_upload(const JobRecord& record, const Upload& upload, BlobStore& blobs,
-                      const ReadLimits& limits, const Watch& watch) {
+// A job whose result is a document: what `print` returns, and how long it took.
+template <typename Print>
+Worked document(const JobRecord& record, BlobStore& blobs, Print print) {
     const auto begin = std::chrono::steady_clock::now();
-    const std::string inspection = print_inspection(inspect(upload, limits, watch));
+    const std::string text = print();
     Worked worked;
-    worked.result.file = store_bytes(worked, blobs, as_bytes(inspection),
-                                     stem_of(record.asset.path) + ".json", "application/json");
+    worked.result.file =
+        store_bytes(worked, blobs, as_bytes(text), stem_of(record.asset.path) + ".json", "application/json");
     worked.result.report = worked.result.file;
     const std::chrono::duration<double, std::milli> total = std::chrono::steady_clock::now() - begin;
     worked.result.stage_ms = {{"total", total.count()}};
     return worked;
+}
+
+Worked inspect_upload(const JobRecord& record, const Upload& upload, BlobStore& blobs,
+                      const ReadLimits& limits, const Watch& watch) {
+    return document(record, blobs, [&] { return print_inspection(inspect(upload, limits, watch)); });
+}
+
+Worked compare_uploads(const JobRecord& record, const Upload& reference, BlobStore& blobs,
+                       const ReadLimits& limits, unsigned threads, const Watch& watch) {
+    const StoredUpload& stored = record.candidate.value();
+    const LoadedUpload candidate = load(stored.asset, stored.resources, blobs, watch);
+    CompareOptions options = record.job.comparison;
+    options.threads = threads;
+    return document(record, blobs, [&] {
+        return print_comparison(compare(reference, candidate.upload, options, limits, watch));
+    });
+}
+
+Worked work_on(const JobRecord& record, const Upload& upload, BlobStore& blobs, const ReadLimits& limits,
+               unsigned threads, const Watch& watch) {
+    switch (record.job.kind) {
+        case JobKind::optimize:
+            return optimize_upload(record, upload, blobs, limits, threads, watch);
+        case JobKind::inspect:
+            return inspect_upload(record, upload, blobs, limits, watch);
+        case JobKind::compare:
+            return compare_uploads(record, upload, blobs, limits, threads, watch);
+    }
+    return {};
 }
 
 }  // namespace
@@ -97,10 +128,9 @@ StoredFile store_bytes(Worked& worked, BlobStore& blobs, ByteView bytes, std::st
 
 Worked work(const JobRecord& record, BlobStore& blobs, const ReadLimits& limits, unsigned threads,
             const Watch& watch) {
-    const LoadedUpload loaded = load(record, blobs, watch);
-    Worked worked = record.job.kind == JobKind::optimize
-                        ? optimize_upload(record, loaded.upload, blobs, limits, threads, watch)
-                        : inspect_upload(record, loaded.upload, blobs, limits, watch);
+    LoadedUpload loaded = load(record.asset, record.resources, blobs, watch);
+    loaded.upload.entry = record.job.options.entry;
+    Worked worked = work_on(record, loaded.upload, blobs, limits, threads, watch);
     worked.result.bytes_in = bytes_of(record);
     return worked;
 }

@@ -13,6 +13,7 @@ Router make_router(Services& services) {
     router.add(get_report_route(services));
     router.add(cancel_job_route(services));
     router.add(inspect_route(services));
+    router.add(compare_route(services));
     router.add(list_algorithms_route());
     router.add(health_route());
     router.add(readiness_route(services));

@@ -16,6 +16,7 @@ Route get_result_route(Services& services);  // GET /v1/jobs/{id}/result
 Route get_report_route(Services& services);  // GET /v1/jobs/{id}/report
 Route cancel_job_route(Services& services);  // POST /v1/jobs/{id}/cancel
 Route inspect_route(Services& services);     // POST /v1/inspect
+Route compare_route(Services& services);     // POST /v1/compare
 Route list_algorithms_route();               // GET /v1/algorithms
 Route health_route();                        // GET /healthz
 Route readiness_route(Services& services);   // GET /readyz

@@ -14,7 +14,8 @@ struct ReceivedUpload {
     std::vector<std::unique_ptr<BlobWriter>> holds;  // keep the bytes until the job names them
 };
 
-// Reads the body: the asset itself with the options in the query, or multipart/form-data. Options of the
+// Reads the body: the asset itself with the options in the query, or multipart/form-data, which a comparison
+// always is. Options of the
 // query are checked before the first byte of the body. Throws option_*, request_*, asset_empty, storage_*.
 ReceivedUpload receive_upload(JobKind kind, const Request& request, BlobStore& blobs,
                               const HttpLimits& limits);

@@ -8,6 +8,16 @@
 
 namespace coppice {
 
+std::vector<const StoredFile*> JobRecord::input_files() const {
+    std::vector<const StoredFile*> files = {&asset};
+    for (const StoredFile& resource : resources) files.push_back(&resource);
+    if (candidate) {
+        files.push_back(&candidate->asset);
+        for (const StoredFile& resource : candidate->resources) files.push_back(&resource);
+    }
+    return files;
+}
+
 Time system_now() {
     return std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
 }

@@ -25,18 +25,27 @@ struct StoredFile {
     uint64_t bytes = 0;
 };
 
-struct NewJob {
-    JobKind kind = JobKind::optimize;
-    OptimizeOptions options = {};
+// An asset with what came along with it.
+struct StoredUpload {
     StoredFile asset = {};
     std::vector<StoredFile> resources = {};
 };
 
+struct NewJob {
+    JobKind kind = JobKind::optimize;
+    OptimizeOptions options = {};
+    CompareOptions comparison = {};
+    StoredFile asset = {};  // of a comparison: the reference
+    std::vector<StoredFile> resources = {};
+    std::optional<StoredUpload> candidate = {};  // of a comparison
+};
+
 struct JobResult {
-    StoredFile file;    // path: the file name that is offered to the client
-    StoredFile report;  // JSON; of an inspection the same bytes. Long where there are many instances
+    StoredFile file;  // path: the file name that is offered to the client
+    StoredFile
+        report;  // JSON; of an inspection or a comparison the same bytes. Long where there are many instances
     uint64_t bytes_in = 0;
-    uint64_t triangles_in = 0;  // stored ones; 0 for an inspection
+    uint64_t triangles_in = 0;  // stored ones; 0 but for an optimization
     uint64_t triangles_out = 0;
     std::vector<std::pair<std::string, double>> stage_ms = {};  // for Server-Timing, in order
 };
@@ -44,9 +53,13 @@ struct JobResult {
 // What clients see, and what the service keeps beside it.
 struct JobRecord {
     Job job;
-    StoredFile asset;
+    StoredFile asset;  // of a comparison: the reference
     std::vector<StoredFile> resources;
-    std::optional<JobResult> result = {};  // once succeeded
+    std::optional<StoredUpload> candidate = {};  // of a comparison
+    std::optional<JobResult> result = {};        // once succeeded
+
+    // Every file that the job was given, in the order of the members.
+    std::vector<const StoredFile*> input_files() const;
 };
 
 struct Claim {

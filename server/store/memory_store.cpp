@@ -19,9 +19,11 @@ Job MemoryStore::submit(NewJob job) {
     made.record.job.id = make_job_id();
     made.record.job.kind = job.kind;
     made.record.job.options = std::move(job.options);
+    made.record.job.comparison = std::move(job.comparison);
     made.record.job.created_at = now_();
     made.record.asset = std::move(job.asset);
     made.record.resources = std::move(job.resources);
+    made.record.candidate = std::move(job.candidate);
     Job view = made.record.job;
     try {
         const Entry& entry = jobs_.emplace(view.id, std::move(made)).first->second;
@@ -212,8 +214,8 @@ JobRecord MemoryStore::remove(const std::string& id) {
 }
 
 MemoryStore::Blobs MemoryStore::blobs_of(const JobRecord& record) {
-    Blobs blobs = {&record.asset.sha256};
-    for (const StoredFile& resource : record.resources) blobs.push_back(&resource.sha256);
+    Blobs blobs;
+    for (const StoredFile* file : record.input_files()) blobs.push_back(&file->sha256);
     if (record.result) {
         blobs.push_back(&record.result->file.sha256);
         blobs.push_back(&record.result->report.sha256);

@@ -283,6 +283,55 @@ TEST_F(CommandLine, shows_the_settings_of_the_service_that_are_in_effect) {
     EXPECT_THAT(out(), HasSubstr("--listen"));
 }
 
+TEST_F(CommandLine, compares_an_asset_with_what_it_made_of_it) {
+    make_sample("in.glb");
+    ASSERT_EQ(run({"optimize", path("in.glb"), "-o", path("out.glb"), "--ratio", "0.5"}), 0) << err();
+    EXPECT_EQ(run({"compare", path("in.glb"), path("out.glb")}), 0) << err();
+    EXPECT_THAT(out(), HasSubstr("each unique mesh was compared once"));
+    EXPECT_THAT(out(), HasSubstr("distance, model units"));
+    EXPECT_THAT(out(), HasSubstr("flipped triangles: 0;"));
+    EXPECT_THAT(out(), Not(HasSubstr("self-intersecting")));
+
+    EXPECT_EQ(run({"compare", path("in.glb"), path("out.glb"), "--json", "--self_intersections", "--samples",
+                   "20", "--threads", "1"}),
+              0)
+        << err();
+    EXPECT_THAT(out(), HasSubstr("\"measured\":\"meshes\""));
+    EXPECT_THAT(out(), HasSubstr("\"self_intersections\":{"));
+    const std::string alone = out();
+    EXPECT_EQ(run({"compare", path("in.glb"), path("out.glb"), "--json", "--self_intersections", "true",
+                   "--samples", "20", "--threads", "3"}),
+              0);
+    EXPECT_EQ(out(), alone);
+}
+
+TEST_F(CommandLine, compares_over_formats_and_finds_nothing_between_an_asset_and_itself) {
+    make_sample("in.glb");
+    ASSERT_EQ(run({"optimize", path("in.glb"), "-o", path("out.obj"), "--ratio", "1"}), 0) << err();
+    EXPECT_EQ(run({"compare", path("in.glb"), path("out.obj")}), 0) << err();
+    EXPECT_THAT(out(), HasSubstr("the scenes were expanded"));
+    EXPECT_EQ(run({"compare", path("in.glb"), path("in.glb")}), 0) << err();
+    EXPECT_THAT(out(), HasSubstr("flipped triangles: 0; with their texture mirrored: 0"));
+}
+
+TEST_F(CommandLine, says_which_of_two_assets_cannot_be_compared) {
+    make_sample("in.glb");
+    std::ofstream(path("broken.obj")) << "v 0 0 nan\n";
+    EXPECT_EQ(run({"compare", path("in.glb"), path("broken.obj")}), 1);
+    EXPECT_THAT(err(), HasSubstr("the candidate: "));
+    EXPECT_EQ(run({"compare", path("broken.obj"), path("in.glb")}), 1);
+    EXPECT_THAT(err(), HasSubstr("the reference: "));
+    std::ofstream(path("points.obj")) << "v 0 0 0\np 1\n";
+    EXPECT_EQ(run({"compare", path("in.glb"), path("points.obj")}), 1);
+    EXPECT_THAT(err(), HasSubstr("asset."));
+    EXPECT_EQ(run({"compare", path("in.glb"), path("nothing.glb")}), 1);
+    EXPECT_EQ(run({"compare", path("in.glb")}), 2);
+    EXPECT_EQ(run({"compare", path("in.glb"), path("in.glb"), "--samples", "0"}), 2);
+    EXPECT_EQ(run({"compare", path("in.glb"), path("in.glb"), "--sample", "3"}), 2);
+    EXPECT_EQ(run({"compare", "--help"}), 0);
+    EXPECT_THAT(out(), HasSubstr("--self_intersections"));
+}
+
 TEST_F(CommandLine, inspects_as_json) {
     make_sample("in.glb");
     EXPECT_EQ(run({"inspect", path("in.glb"), "--json"}), 0);

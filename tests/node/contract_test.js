@@ -164,6 +164,27 @@ test('an inspection tells what is in an asset', async () => {
     await ask('post', '/v1/inspect', 202, { headers: { ...glb, Prefer: 'respond-async' }, body: scene });
 });
 
+test('a comparison tells how far one asset is from another', async () => {
+    const { body: small } = await ask('post', '/v1/optimize', 200, { headers: glb, body: scene });
+    const form = (...parts) => multipart([{ name: 'reference', filename: 'a.glb', bytes: scene }, ...parts]);
+    const both = form(
+        { name: 'candidate', filename: 'b.glb', bytes: small },
+        { name: 'options', bytes: '{"self_intersections":true}' },
+    );
+    const { body, answer } = await ask('post', '/v1/compare', 200, both);
+    assert.equal(body.measured, 'meshes');
+    assert.ok(body.surface.surface_distance.symmetric.largest_diagonal_fraction < 0.05);
+    assert.equal(body.surface.flipped_triangles, 0);
+    assert.equal(body.meshes.length, body.reference.meshes);
+    const { body: report } = await ask('get', '/v1/jobs/{id}/report', 200, { id: id_of(answer) });
+    assert.deepEqual(report, body);
+    await ask('get', '/v1/jobs/{id}/result', 200, { id: id_of(answer) });
+    assert.equal((await finished(id_of(answer))).kind, 'compare');
+    await ask('post', '/v1/compare', 202, { ...both, headers: { ...both.headers, Prefer: 'respond-async' } });
+    await refused('post', '/v1/compare', 400, 'request.malformed', form());
+    await refused('post', '/v1/compare', 415, 'request.type_unsupported', { headers: glb, body: scene });
+});
+
 test('the service tells its algorithms, its health and its figures', async () => {
     const { body } = await ask('get', '/v1/algorithms', 200);
     assert.ok(body.algorithms.some((algorithm) => algorithm.id === body.default_algorithm));

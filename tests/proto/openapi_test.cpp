@@ -57,7 +57,8 @@ TEST(Openapi, lists_the_statuses_and_kinds_of_jobs) {
         EXPECT_TRUE(job_status_from_name(status)) << status;
     }
     EXPECT_EQ(schema("JobStatus")["enum"].size(), 5U);
-    EXPECT_EQ(schema("JobKind")["enum"], nlohmann::json({name(JobKind::optimize), name(JobKind::inspect)}));
+    EXPECT_EQ(schema("JobKind")["enum"],
+              nlohmann::json({name(JobKind::optimize), name(JobKind::inspect), name(JobKind::compare)}));
 }
 
 TEST(Openapi, lists_the_formats_that_are_read_and_those_that_are_written) {

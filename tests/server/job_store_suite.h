@@ -239,6 +239,30 @@ TEST_P(JobStoreSuite, blobs_are_referred_to_as_long_as_a_job_names_them) {
     EXPECT_FALSE(store->refers_to("asset"));
 }
 
+TEST_P(JobStoreSuite, a_comparison_has_a_candidate_and_its_own_options) {
+    NewJob comparison = job("reference");
+    comparison.kind = JobKind::compare;
+    comparison.comparison = {.samples = 20, .self_intersections = true, .candidate_entry = "b.obj"};
+    comparison.candidate = {{"b.zip", "application/zip", "candidate", 4}, {{"b.png", "", "paint", 5}}};
+    const std::string id = store->submit(comparison).id;
+    const JobRecord record = store->claim().value().record;
+    EXPECT_EQ(record.job.kind, JobKind::compare);
+    EXPECT_EQ(record.job.comparison.samples, 20);
+    EXPECT_TRUE(record.job.comparison.self_intersections);
+    EXPECT_EQ(record.job.comparison.candidate_entry, "b.obj");
+    ASSERT_TRUE(record.candidate.has_value());
+    EXPECT_EQ(record.candidate->asset.sha256, "candidate");
+    EXPECT_EQ(record.candidate->asset.path, "b.zip");
+    ASSERT_EQ(record.candidate->resources.size(), 1U);
+    EXPECT_EQ(record.candidate->resources[0].bytes, 5U);
+    EXPECT_EQ(record.input_files().size(), 3U);
+    EXPECT_TRUE(store->refers_to("candidate"));
+    EXPECT_TRUE(store->refers_to("paint"));
+    store->remove(id);
+    EXPECT_FALSE(store->refers_to("candidate"));
+    EXPECT_FALSE(store->refers_to("paint"));
+}
+
 TEST_P(JobStoreSuite, lists_newest_first_page_by_page_without_gaps_while_jobs_come) {
     std::vector<std::string> ids = {submit(), submit(), submit()};
     const JobPage first = store->list({.limit = 2});
