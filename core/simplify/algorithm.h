@@ -49,7 +49,8 @@ struct Algorithm {
     std::string_view title;
     std::string_view citation;
     std::span<const Parameter> parameters;
-    bool instance_aware = false;                 // the instances of a mesh weigh in what is kept of it
+    bool instance_aware = false;  // the instances of a mesh weigh in what is kept of it
+    bool keeps_values = false;    // positions and attributes of the result are some of the mesh's, untouched
     uint32_t bytes_per_triangle = 400;           // at most this much memory, beside the mesh and its result
     double bounds_tolerance_of_diagonal = 0.01;  // how far each side of the box may move
 

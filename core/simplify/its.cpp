@@ -89,6 +89,7 @@ Algorithm its() {
                 "and appearance-related metric. arXiv:2101.02570, 2021",
             .parameters = parameters(),
             .instance_aware = true,
+            .keeps_values = true,
             .simplify = simplify};
 }
 
