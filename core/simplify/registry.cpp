@@ -7,11 +7,15 @@
 
 #include "core/base/error.h"
 #include "core/simplify/its.h"
+#include "core/simplify/ivdd.h"
+#include "core/simplify/ss.h"
+#include "core/simplify/vt.h"
+#include "core/simplify/vtd.h"
 
 namespace coppice {
 
 std::span<const Algorithm> algorithms() {
-    static const std::array<Algorithm, 1> list = {its()};
+    static const std::array<Algorithm, 5> list = {its(), vt(), ivdd(), ss(), vtd()};
     return list;
 }
 
