@@ -35,7 +35,10 @@ struct Parameter {
     std::span<const std::string_view> choices = {};
     std::string_view pattern = {};  // of a text: an ECMAScript expression for all of it, without ^ and $
     std::string_view form = {};     // of a text: what the pattern asks for, in words
-    bool ends_run = false;          // given, it is a target of its own: no default ratio then
+    // Of a choice: the value at which an algorithm runs as its paper prints it, without any guard of the
+    // surface.
+    std::string_view unguarded_choice = {};
+    bool ends_run = false;  // given, it is a target of its own: no default ratio then
 };
 
 // A distance in the mesh: its own units, or multiples of its mean edge.

@@ -10,12 +10,17 @@
 #include "core/simplify/garland_heckbert.h"
 #include "core/simplify/ias.h"
 #include "core/simplify/its.h"
+#include "core/simplify/ivdd.h"
 #include "core/simplify/openmesh.h"
+#include "core/simplify/ss.h"
+#include "core/simplify/vt.h"
+#include "core/simplify/vtd.h"
 
 namespace coppice {
 
 std::span<const Algorithm> algorithms() {
-    static const std::array<Algorithm, 5> list = {its(), ias(), gaps(), quadric(), openmesh()};
+    static const std::array<Algorithm, 9> list = {its(),  ias(), gaps(), quadric(), vt(),
+                                                  ivdd(), ss(),  vtd(),  openmesh()};
     return list;
 }
 

@@ -37,6 +37,8 @@ class Classifier {
     explicit Classifier(const CollapseMesh& mesh) : mesh_(mesh), neighbours_(mesh.vertex_count()) {}
 
     VertexKind classify(uint32_t vertex) {
+        spokes_.clear();
+        if (is_plain(vertex)) return VertexKind::manifold;
         gather_spokes(vertex);
         uint32_t borders = 0, seams = 0, fans = 0;
         bool crowded = false;
@@ -64,6 +66,37 @@ class Classifier {
     }
 
   private:
+    // Whether the vertex is what nearly all are: a closed ring of few triangles around it, all of one chart
+    // at each end of each spoke.
+    bool is_plain(uint32_t vertex) const {
+        struct End {
+            uint32_t vertex, chart;
+            bool operator==(const End&) const = default;
+        };
+        constexpr uint32_t most = 12;
+        std::array<End, most> ahead{}, behind{};
+        const uint32_t count = mesh_.valence(vertex);
+        if (count < 3 || count > most) return false;
+        const auto end_at = [this](uint32_t corner) {
+            return End{mesh_.corner_vertex(corner), mesh_.wedge_chart(mesh_.corner_wedge(corner))};
+        };
+        const uint32_t chart = mesh_.wedge_chart(mesh_.corner_wedge(mesh_.first_corner(vertex)));
+        uint32_t i = 0;
+        for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c), ++i) {
+            if (mesh_.wedge_chart(mesh_.corner_wedge(c)) != chart) return false;
+            ahead[i] = end_at(CollapseMesh::next_corner(c));
+            behind[i] = end_at(CollapseMesh::previous_corner(c));
+        }
+        uint32_t at = 0;
+        for (uint32_t step = 1; step <= count; ++step) {
+            uint32_t next = 0;
+            while (next < count && !(ahead[next] == behind[at])) ++next;
+            if (next == count || (next == 0) != (step == count)) return false;
+            at = next;
+        }
+        return true;
+    }
+
     void gather_spokes(uint32_t vertex) {
         neighbours_.gather(mesh_, vertex);
         spokes_.assign(neighbours_.all().size(), Spoke{});
