@@ -42,12 +42,16 @@ class CollapseRules {
     // degenerate. The edge exists.
     Refusal check(uint32_t removed, uint32_t kept);
 
+    // Corners of other vertices than the pair that checks have looked at until now: their work beyond its
+    // rings. Bounded for each check, whatever the mesh.
+    uint64_t searched() const { return searched_; }
+
   private:
     bool keeps_topology(uint32_t removed, uint32_t kept);
     bool duplicates(uint32_t removed, uint32_t kept);
     bool keeps_orientation(uint32_t removed, uint32_t kept) const;
     double agreement_with_corners(Vec3d normal, const std::array<uint32_t, 3>& corners) const;
-    uint32_t edge_uses(uint32_t vertex, uint32_t other, bool ring_gathered) const;
+    uint32_t edge_uses(uint32_t vertex, uint32_t kept, bool ring_gathered);
 
     const CollapseMesh& mesh_;
     std::vector<VertexKind> kinds_;
@@ -55,6 +59,7 @@ class CollapseRules {
     std::vector<Vec3f> facing_;         // per vertex, where the surface faced at the start; see facing()
     Neighbours around_removed_, around_kept_;
     std::vector<uint32_t> shared_;  // per neighbour of `removed`: triangles that also hold `kept`
+    uint64_t searched_ = 0;
 };
 
 }  // namespace coppice
