@@ -5,6 +5,7 @@
 namespace coppice {
 
 void Watch::check() const {
+    if (checked) checked();
     if (stop.stop_requested()) fail(ErrorCode::job_cancelled, "", "the job was cancelled");
 }
 

@@ -7,12 +7,16 @@
 
 namespace coppice {
 
-// Copyable; the callbacks may be called from any thread that core runs on, one at a time.
+// Copyable; the callbacks may be called from any thread that core runs on, one at a time unless they say
+// else.
 struct Watch {
     std::stop_token stop = {};
     std::function<void(double fraction)> progress = {};  // 0..1, never goes back
     std::function<void(std::string_view stage)> stage =
         {};  // read, discover, simplify, encode, write; compare
+    // Called by every check(), from any thread and several at a time: how tests and benchmarks see how often
+    // the stop is looked at.
+    std::function<void()> checked = {};
 
     // Throws Error{job_cancelled} once stop was requested. Cheap; called at least every 50 ms.
     void check() const;

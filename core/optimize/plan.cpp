@@ -47,12 +47,6 @@ Placement place(const Scene& scene) {
     placement.instances = instances(scene);
     placement.of_mesh.resize(scene.meshes.size());
     for (const Instance& instance : placement.instances) {
-        if (!instance.world.is_finite()) {
-            fail(
-                ErrorCode::asset_malformed, fmt::format("nodes[{}]", instance.node),
-                fmt::format("node {} stands at a transform that is not finite, once its parents' are applied",
-                            instance.node));
-        }
         placement.of_mesh[instance.mesh].push_back(instance.world);
     }
     for (const std::vector<Transform>& of_one : placement.of_mesh)

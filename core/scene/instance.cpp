@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/base/error.h"
+
 namespace coppice {
 
 namespace {
@@ -46,12 +48,21 @@ std::vector<Transform> world_transforms(const Scene& scene) {
 std::vector<Instance> instances(const Scene& scene) {
     const std::vector<Transform> world = world_transforms(scene);
     std::vector<Instance> result;
+    const auto add = [&result](const Instance& instance) {
+        if (!instance.world.is_finite()) {
+            fail(
+                ErrorCode::asset_malformed, fmt::format("nodes[{}]", instance.node),
+                fmt::format("node {} stands at a transform that is not finite, once its parents' are applied",
+                            instance.node));
+        }
+        result.push_back(instance);
+    };
     walk(scene, scene.roots, [&](uint32_t n) {
         const Node& node = scene.nodes[n];
         if (!node.mesh) return;
-        if (node.batch.empty()) result.push_back({*node.mesh, n, 0, world[n]});
+        if (node.batch.empty()) add({*node.mesh, n, 0, world[n]});
         for (uint32_t i = 0; i < node.batch.size(); ++i) {
-            result.push_back({*node.mesh, n, i, world[n] * node.batch[i]});
+            add({*node.mesh, n, i, world[n] * node.batch[i]});
         }
     });
     return result;
@@ -191,7 +202,10 @@ class BoundsSearch {
 }  // namespace
 
 Bounds scene_bounds(const Scene& scene, std::span<const Instance> instances) {
-    return instances.empty() ? Bounds{} : BoundsSearch(scene, instances).run();
+    const Bounds box = instances.empty() ? Bounds{} : BoundsSearch(scene, instances).run();
+    require(std::isfinite(box.diagonal()), ErrorCode::asset_malformed, "nodes",
+            "the scene reaches farther than numbers do: its box has no finite diagonal");
+    return box;
 }
 
 Bounds scene_bounds(const Scene& scene) {

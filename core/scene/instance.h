@@ -20,7 +20,8 @@ struct Instance {
 // World transform of every node, in node order. Iterative: depth costs no stack.
 std::vector<Transform> world_transforms(const Scene& scene);
 
-// Every instance that the default scene draws, in depth-first order from the roots.
+// Every instance that the default scene draws, in depth-first order from the roots. Throws asset_malformed
+// where one's world transform is not finite: the product of finite ones may be too large for a number.
 std::vector<Instance> instances(const Scene& scene);
 
 // How many instances instances() would give, without making them.
@@ -28,7 +29,8 @@ uint64_t instance_count(const Scene& scene);
 
 // World-space bounds of all instances: the box of every transformed position. No side is beyond the exact
 // one, or short of it by more than 1e-9 of the diagonal: an instance that cannot reach farther than that is
-// not looked at closer, so that thousands of instances cost little.
+// not looked at closer, so that thousands of instances cost little. Throws asset_malformed where the box has
+// no finite diagonal.
 Bounds scene_bounds(const Scene& scene);
 Bounds scene_bounds(const Scene& scene, std::span<const Instance> instances);
 

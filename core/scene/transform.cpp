@@ -146,7 +146,8 @@ double squared_scale_bound(const Transform& transform) {
 double largest_scale(std::span<const Transform> transforms) {
     double largest = 0;
     for (const Transform& transform : transforms) {
-        if (squared_scale_bound(transform) > largest * largest * (1 + 1e-12)) {
+        // Turned around, so that one whose squares are too large for a number is asked, too.
+        if (!(squared_scale_bound(transform) <= largest * largest * (1 + 1e-12))) {
             largest = std::max(largest, largest_scale(transform));
         }
     }

@@ -146,9 +146,10 @@ bool CollapseRules::keeps_topology(uint32_t removed, uint32_t kept) {
 }
 
 // Triangles at the edge from `kept` to a vertex.
-uint32_t CollapseRules::edge_uses(uint32_t vertex, uint32_t kept, bool ring_gathered) const {
+uint32_t CollapseRules::edge_uses(uint32_t vertex, uint32_t kept, bool ring_gathered) {
     if (ring_gathered) return around_kept_.uses(vertex);
     uint32_t uses = 0;
+    searched_ += mesh_.valence(vertex);
     for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c)) {
         uses += mesh_.corner_vertex(CollapseMesh::next_corner(c)) == kept ||
                 mesh_.corner_vertex(CollapseMesh::previous_corner(c)) == kept;
@@ -165,6 +166,7 @@ bool CollapseRules::duplicates(uint32_t removed, uint32_t kept) {
         if (shared_[around_removed_.find(a)] == 0 || shared_[around_removed_.find(b)] == 0) continue;
         if (mesh_.valence(b) < mesh_.valence(a)) std::swap(a, b);
         if (mesh_.valence(a) > largest_removable_valence) return true;  // not known, and too long to search
+        searched_ += mesh_.valence(a);
         for (uint32_t d = mesh_.first_corner(a); d != no_index; d = mesh_.corner_after(d)) {
             const uint32_t e = mesh_.corner_vertex(CollapseMesh::next_corner(d));
             const uint32_t f = mesh_.corner_vertex(CollapseMesh::previous_corner(d));

@@ -41,6 +41,10 @@ class CollapseRules {
     // degenerate. The edge exists.
     Refusal check(uint32_t removed, uint32_t kept);
 
+    // Corners of other vertices than the pair that checks have looked at until now: their work beyond its
+    // rings. Bounded for each check, whatever the mesh.
+    uint64_t searched() const { return searched_; }
+
     // What check() asks of each triangle that moves: whether the one at this corner may have it at `to`,
     // where the surface faced `facing` (unit, or zero where that is not known).
     bool keeps_orientation(uint32_t corner, Vec3d to, Vec3f facing) const;
@@ -56,7 +60,7 @@ class CollapseRules {
   private:
     bool duplicates(uint32_t removed, uint32_t kept);
     bool keeps_orientation(uint32_t removed, uint32_t kept) const;
-    uint32_t edge_uses(uint32_t vertex, uint32_t other, bool ring_gathered) const;
+    uint32_t edge_uses(uint32_t vertex, uint32_t kept, bool ring_gathered);
 
     const CollapseMesh& mesh_;
     std::vector<VertexKind> kinds_;
@@ -64,6 +68,7 @@ class CollapseRules {
     std::vector<Vec3f> facing_;         // per vertex, where the surface faced at the start; see facing()
     Neighbours around_removed_, around_kept_;
     std::vector<uint32_t> shared_;  // per neighbour of `removed`: triangles that also hold `kept`
+    uint64_t searched_ = 0;
 };
 
 }  // namespace coppice

@@ -48,12 +48,19 @@ InstanceMetric::InstanceMetric(std::span<const Transform> instances) {
     g.xx += floor, g.yy += floor, g.zz += floor;
     const double determinant = g.determinant();
     if (!std::isfinite(determinant) || !(determinant > 0)) return;
-    // The inverse is the adjugate over the determinant, times its cube root for a determinant of 1.
-    const double scale = std::cbrt(determinant) / determinant;
+    const double root = std::cbrt(determinant);
+    metric_ = {g.xx / root, g.yy / root, g.zz / root, g.xy / root, g.yz / root, g.zx / root};
+    const double scale = root / determinant;  // the inverse is the adjugate over the determinant
     inverse_ = {scale * (g.yy * g.zz - g.yz * g.yz), scale * (g.xx * g.zz - g.zx * g.zx),
                 scale * (g.xx * g.yy - g.xy * g.xy), scale * (g.yz * g.zx - g.xy * g.zz),
                 scale * (g.xy * g.zx - g.yz * g.xx), scale * (g.xy * g.yz - g.zx * g.yy)};
     is_identity_ = false;
+}
+
+Vec3d InstanceMetric::dual(Vec3d d) const {
+    if (is_identity_) return d;
+    const auto& [xx, yy, zz, xy, yz, zx] = metric_;
+    return {xx * d.x + xy * d.y + zx * d.z, xy * d.x + yy * d.y + yz * d.z, zx * d.x + yz * d.y + zz * d.z};
 }
 
 double InstanceMetric::shrink(Vec3d n) const {

@@ -21,9 +21,13 @@ class InstanceMetric {
     // mean instance, and an area a on it becomes a * shrink. 1 where nothing is stretched.
     double shrink(Vec3d unit_normal) const;
 
+    // G d: its dot product with any e is that of S d and S e. d itself where nothing is stretched.
+    Vec3d dual(Vec3d d) const;
+
   private:
     bool is_identity_ = true;
-    std::array<double, 6> inverse_ = {1, 1, 1, 0, 0, 0};  // of G at determinant 1: xx yy zz xy yz zx
+    std::array<double, 6> metric_ = {1, 1, 1, 0, 0, 0};   // G at determinant 1: xx yy zz xy yz zx
+    std::array<double, 6> inverse_ = {1, 1, 1, 0, 0, 0};  // of that
 };
 
 }  // namespace coppice

@@ -59,7 +59,8 @@ void UnifiedError::add_planes(const InstanceMetric& metric, const Watch& watch) 
     });
 }
 
-// Planes through border and seam edges, perpendicular to the triangle.
+// Planes through border and seam edges, perpendicular to the triangle in the mean instance, where edges are
+// as long as they are there.
 void UnifiedError::add_constraints(std::span<const FeatureEdge> features, const InstanceMetric& metric,
                                    const Watch& watch) {
     watched_loop(features.size(), watch, [&](size_t i) {
@@ -68,10 +69,12 @@ void UnifiedError::add_constraints(std::span<const FeatureEdge> features, const 
         const Vec3d normal = cross(mesh_.position(mesh_.corner_vertex(3 * f.triangle + 1)) - a,
                                    mesh_.position(mesh_.corner_vertex(3 * f.triangle + 2)) - a);
         const Vec3d edge = mesh_.position(f.b) - mesh_.position(f.a);
-        const Vec3d across = normalized(cross(edge, normal));
-        const double shrink = metric.shrink(across);
-        const double weight = squared_length(edge) * (f.is_border ? border_weight : seam_weight);
-        const Quadric plane = plane_quadric(across, mesh_.position(f.a), weight / (shrink * shrink));
+        const Vec3d inward = cross(metric.dual(edge), normal);  // in the triangle, away from the edge
+        const Vec3d across = metric.dual(inward);
+        const double size = std::sqrt(dot(inward, across));
+        const double weight = dot(edge, metric.dual(edge)) * (f.is_border ? border_weight : seam_weight);
+        const Quadric plane =
+            plane_quadric(size > 0 ? across * (1 / size) : Vec3d{}, mesh_.position(f.a), weight);
         geometry_[f.a].quadric += plane;
         geometry_[f.b].quadric += plane;
     });

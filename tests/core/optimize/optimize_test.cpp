@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/optimize/inspect.h"
@@ -131,6 +132,29 @@ TEST(Optimize, measures_its_stages) {
     EXPECT_GT(times.simplify, 0);
     EXPECT_GT(times.write, 0);
     EXPECT_GE(times.total, times.read + times.simplify + times.write);
+}
+
+// Its nodes' matrices are finite, what they multiply to is not.
+Input too_far_out() {
+    Scene scene = make_sample("cad", {.copies = 1, .triangles = 300});
+    const Transform huge = from_trs({}, {0, 0, 0, 1}, {1e200, 1e200, 1e200});
+    Node above;
+    above.local = huge;
+    above.children = std::exchange(scene.roots, {static_cast<uint32_t>(scene.nodes.size())});
+    for (const uint32_t child : above.children) {
+        scene.nodes[child].parent = scene.roots[0];
+        scene.nodes[child].local = huge;
+    }
+    scene.nodes.push_back(above);
+    return {write_asset(scene, {}, {}).bytes};
+}
+
+TEST(Inspect, refuses_what_stands_nowhere_as_optimize_does) {
+    const Input input = too_far_out();
+    const auto is_malformed =
+        testing::Throws<Error>(testing::Property(&Error::code, ErrorCode::asset_malformed));
+    EXPECT_THAT([&] { inspect(input.upload(), {}, {}); }, is_malformed);
+    EXPECT_THAT([&] { optimize(input.upload(), {}, {}, {}); }, is_malformed);
 }
 
 TEST(Inspect, says_what_is_in_an_asset) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
 #include "core/scene/expand.h"
 
 namespace coppice {
@@ -91,6 +92,43 @@ TEST(SceneBounds, are_those_of_every_position_of_thousands_of_instances) {
     const double tolerance = 1e-9 * exact.diagonal();
     EXPECT_LE(length(box.min - exact.min), 2 * tolerance);
     EXPECT_LE(length(box.max - exact.max), 2 * tolerance);
+}
+
+Transform scale(double factor) {
+    return from_trs({}, {0, 0, 0, 1}, {factor, factor, factor});
+}
+
+template <typename Body>
+void expect_malformed(Body body, const std::string& where) {
+    try {
+        body();
+        ADD_FAILURE() << "was not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::asset_malformed);
+        EXPECT_EQ(error.where(), where);
+    }
+}
+
+TEST(Instances, are_refused_where_finite_transforms_have_no_finite_product) {
+    Scene scene = three_triangles();
+    scene.nodes[0].local = scale(1e200);
+    scene.nodes[1].local = scale(1e200);
+    expect_malformed([&] { instances(scene); }, "nodes[1]");
+    expect_malformed([&] { scene_bounds(scene); }, "nodes[1]");
+    scene.nodes[1].local = {};
+    scene.nodes[2].batch[1] = scale(1e200);
+    expect_malformed([&] { instances(scene); }, "nodes[2]");
+}
+
+TEST(SceneBounds, are_refused_where_they_have_no_finite_diagonal) {
+    Scene scene = three_triangles();
+    for (const double factor : {1e200, 1e305}) {
+        scene.nodes[0].local = scale(factor);
+        scene.meshes[0].positions[1].x = 2;
+        expect_malformed([&] { scene_bounds(scene); }, "nodes");
+    }
+    scene.nodes[0].local = scale(1e100);
+    EXPECT_EQ(scene_bounds(scene).max.y, 1e100);
 }
 
 TEST(UnfoldBatches, lists_the_same_instances_in_the_same_order) {

@@ -78,6 +78,11 @@ TEST(Transform, largest_scale_is_the_largest_singular_value) {
 }
 
 // The fast path against the plain one.
+TEST(Transform, largest_scale_of_many_is_found_where_squares_are_too_large_for_a_number) {
+    const std::vector<Transform> many = {from_trs({}, {0, 0, 0, 1}, {1e200, 1e180, 1e180})};
+    EXPECT_NEAR(largest_scale(many) / 1e200, 1, 1e-12);
+}
+
 TEST(Transform, largest_scale_of_many_is_the_largest_of_each) {
     EXPECT_EQ(largest_scale(std::span<const Transform>{}), 0);
     uint64_t state = 1;

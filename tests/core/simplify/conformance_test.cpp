@@ -21,6 +21,9 @@ namespace {
 struct NamedMesh {
     const char* name;
     Mesh mesh;
+    bool is_surface = true;  // has an outside, and borders that are lines
+
+    bool has_texture() const { return mesh.find_attribute("TEXCOORD_0") != nullptr; }
 };
 
 const std::vector<NamedMesh>& drawn() {
@@ -37,7 +40,7 @@ const std::vector<NamedMesh>& drawn() {
         {"faceted_sphere", shapes::faceted_sphere()},
         {"blob", shapes::blob({.segments = 40, .rings = 30})},
         {"tetrahedron", shapes::tetrahedron()},
-        {"soup", shapes::soup()},
+        {"soup", shapes::soup(), false},
         {"fin", shapes::fin()},
         {"skinned_strip", shapes::skinned_strip()},
     };
@@ -82,14 +85,6 @@ std::vector<Variant> unguarded_variants() {
         }
     }
     return list;
-}
-
-std::string test_name(const Variant& variant, const char* shape) {
-    std::string name = variant.algorithm;
-    for (const auto& [id, value] : variant.parameters) name += "_" + id + "_" + std::get<std::string>(value);
-    std::string text = name + "_" + shape;
-    std::replace(text.begin(), text.end(), '-', '_');
-    return text;
 }
 
 Simplified simplify(const Variant& variant, const Mesh& mesh, const Target& target, const Watch& watch = {}) {
@@ -156,7 +151,7 @@ class EveryAlgorithm : public testing::TestWithParam<std::tuple<Variant, size_t>
   protected:
     const Variant& variant() const { return std::get<0>(GetParam()); }
     const Mesh& mesh() const { return drawn()[std::get<1>(GetParam())].mesh; }
-    std::string shape() const { return drawn()[std::get<1>(GetParam())].name; }
+    const char* shape() const { return drawn()[std::get<1>(GetParam())].name; }
 
     template <typename Check>
     void at_every_ratio(Check check) {
@@ -177,6 +172,11 @@ class EveryAlgorithm : public testing::TestWithParam<std::tuple<Variant, size_t>
         }
     }
 };
+
+// What holds on some shapes only is not asked of the others. Soup has no outside that a triangle could be
+// flipped from, and is nothing but borders; without texture coordinates there are no seams of them.
+class EveryAlgorithmOnSurfaces : public EveryAlgorithm {};
+class EveryAlgorithmOnTextures : public EveryAlgorithm {};
 
 TEST_P(EveryAlgorithm, gives_a_consistent_mesh_without_what_is_unused) {
     at_every_ratio([&](double, const Simplified& s) {
@@ -212,8 +212,7 @@ TEST_P(EveryAlgorithm, makes_no_edge_non_manifold) {
     });
 }
 
-TEST_P(EveryAlgorithm, flips_no_triangle) {
-    if (shape() == "soup") GTEST_SKIP() << "has no outside";
+TEST_P(EveryAlgorithmOnSurfaces, flips_no_triangle) {
     at_every_ratio(
         [&](double, const Simplified& s) { EXPECT_TRUE(test::has_no_flipped_triangle(mesh(), s.mesh)); });
 }
@@ -228,8 +227,7 @@ TEST_P(EveryAlgorithm, keeps_the_box) {
 
 constexpr double line_tolerance = 0.05;  // of the diagonal, whatever the ratio
 
-TEST_P(EveryAlgorithm, keeps_borders) {
-    if (shape() == "soup") GTEST_SKIP() << "is nothing but borders";
+TEST_P(EveryAlgorithmOnSurfaces, keeps_borders) {
     at_every_ratio([&](double, const Simplified& s) {
         EXPECT_TRUE(test::keeps_borders(mesh(), s.mesh, line_tolerance));
         if (topology(mesh()).border_edges == 0) {
@@ -238,8 +236,7 @@ TEST_P(EveryAlgorithm, keeps_borders) {
     });
 }
 
-TEST_P(EveryAlgorithm, keeps_seams) {
-    if (mesh().find_attribute("TEXCOORD_0") == nullptr) GTEST_SKIP() << "has no UVs";
+TEST_P(EveryAlgorithmOnTextures, keeps_seams) {
     at_every_ratio([&](double, const Simplified& s) {
         EXPECT_TRUE(test::keeps_seams(mesh(), s.mesh, line_tolerance));
         if (find_algorithm(variant().algorithm).keeps_values) {
@@ -286,13 +283,43 @@ TEST_P(EveryAlgorithm, leaves_alone_what_is_small_enough) {
     EXPECT_EQ(s.error_model_units, 0);
 }
 
+// Indices in drawn().
+template <typename Rule>
+std::vector<size_t> shapes_that(Rule rule) {
+    std::vector<size_t> indices;
+    for (size_t i = 0; i < drawn().size(); ++i)
+        if (rule(drawn()[i])) indices.push_back(i);
+    return indices;
+}
+
+const auto every_variant = testing::ValuesIn(variants());
+
+std::string variant_and_shape(const testing::TestParamInfo<std::tuple<Variant, size_t>>& tested) {
+    const Variant& v = std::get<0>(tested.param);
+    std::string name = v.algorithm;
+    for (const auto& [id, value] : v.parameters) name += "_" + id + "_" + std::get<std::string>(value);
+    name += std::string("_") + drawn()[std::get<1>(tested.param)].name;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
 INSTANTIATE_TEST_SUITE_P(Registry, EveryAlgorithm,
-                         testing::Combine(testing::ValuesIn(variants()),
-                                          testing::Range(size_t{0}, drawn().size())),
-                         [](const testing::TestParamInfo<std::tuple<Variant, size_t>>& tested) {
-                             return test_name(std::get<0>(tested.param),
-                                              drawn()[std::get<1>(tested.param)].name);
-                         });
+                         testing::Combine(every_variant, testing::ValuesIn(shapes_that([](const NamedMesh&) {
+                                              return true;
+                                          }))),
+                         variant_and_shape);
+INSTANTIATE_TEST_SUITE_P(Registry, EveryAlgorithmOnSurfaces,
+                         testing::Combine(every_variant,
+                                          testing::ValuesIn(shapes_that([](const NamedMesh& m) {
+                                              return m.is_surface;
+                                          }))),
+                         variant_and_shape);
+INSTANTIATE_TEST_SUITE_P(Registry, EveryAlgorithmOnTextures,
+                         testing::Combine(every_variant,
+                                          testing::ValuesIn(shapes_that([](const NamedMesh& m) {
+                                              return m.has_texture();
+                                          }))),
+                         variant_and_shape);
 
 class EveryUnguardedMode : public EveryAlgorithm {};
 
@@ -323,10 +350,7 @@ TEST_P(EveryUnguardedMode, gives_the_same_twice) {
 INSTANTIATE_TEST_SUITE_P(Registry, EveryUnguardedMode,
                          testing::Combine(testing::ValuesIn(unguarded_variants()),
                                           testing::Range(size_t{0}, drawn().size())),
-                         [](const testing::TestParamInfo<std::tuple<Variant, size_t>>& tested) {
-                             return test_name(std::get<0>(tested.param),
-                                              drawn()[std::get<1>(tested.param)].name);
-                         });
+                         variant_and_shape);
 
 }  // namespace
 }  // namespace coppice

@@ -14,6 +14,7 @@
 #include "core/simplify/heap.h"
 #include "core/simplify/instance_metric.h"
 #include "core/simplify/quadric.h"
+#include "core/simplify/unified_error.h"
 #include "core/simplify/uv_guard.h"
 #include "core/simplify/vertex_kind.h"
 #include "tests/support/shapes.h"
@@ -181,6 +182,38 @@ TEST(InstanceMetric, shrinks_a_normal_as_the_instance_does_at_equal_volume) {
     EXPECT_NEAR(metric.shrink({0, 1, 0}), 2.0 / 1, 1e-5);
 }
 
+TEST(InstanceMetric, measures_like_the_instance_at_equal_volume) {
+    const Transform sheared = {{2, 1, 0, 5, 0, 0.5, 0, 6, 0, 0.25, 1, 7}};  // determinant 1
+    const InstanceMetric metric(std::vector{sheared});
+    const Vec3d d = {1, 2, 3}, e = {-2, 0.5, 1};
+    EXPECT_NEAR(dot(metric.dual(d), e), dot(sheared.direction(d), sheared.direction(e)), 1e-4);
+    EXPECT_EQ(InstanceMetric({}).dual(d), d);
+}
+
+TEST(UnifiedError, is_that_of_the_stretched_mesh_where_its_instances_are_stretched) {
+    const Transform stretch = {{4, 0.5, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0}};  // determinant 1
+    const Mesh hills = shapes::grid({.columns = 6, .rows = 6, .height = 0.3});
+    Mesh stretched = hills;
+    transform_mesh(stretch, stretched);
+    const auto costs = [](const Mesh& mesh, const std::vector<Transform>& instances) {
+        const CollapseMesh collapsing(mesh);
+        AttributeClouds clouds(collapsing, mesh, {});
+        const UnifiedError errors(collapsing, find_features(collapsing, {}).edges, clouds, PlaneWeights::area,
+                                  InstanceMetric(instances), {});
+        std::vector<double> all;
+        for (uint32_t corner = 0; corner < 3 * collapsing.triangle_count(); ++corner) {
+            const uint32_t removed = collapsing.corner_vertex(corner);
+            const uint32_t kept = collapsing.corner_vertex(CollapseMesh::next_corner(corner));
+            all.push_back(errors.cost(removed, kept, {collapsing.wedge_begin(kept)}).geometric);
+        }
+        return all;
+    };
+    const std::vector<double> in_mesh = costs(hills, {stretch}), in_world = costs(stretched, {});
+    // Apart from what tells edges of flat ground apart, a thousandth of their length in the mesh.
+    for (size_t i = 0; i < in_world.size(); ++i)
+        EXPECT_NEAR(in_mesh[i], in_world[i], 0.01 * in_world[i] + 1e-4) << "edge " << i;
+}
+
 TEST(InstanceMetric, takes_instances_that_are_flat_or_no_numbers) {
     const Transform flat = from_trs({}, {0, 0, 0, 1}, {1, 1, 0}), nothing = from_trs({}, {0, 0, 0, 1}, {});
     EXPECT_TRUE(std::isfinite(InstanceMetric(std::vector{flat}).shrink({0, 0, 1})));
@@ -212,6 +245,54 @@ TEST(CollapseRules, refuse_to_fold_a_triangle_over) {
     EXPECT_EQ(rules.check(0, 3), Refusal::none);
     EXPECT_EQ(rules.check(0, 2), Refusal::topology);
     EXPECT_EQ(rules.check(0, 4), Refusal::topology);
+}
+
+// Two fans back to back: `slices` around, their hubs first.
+Mesh bipyramid(uint32_t slices) {
+    Mesh mesh;
+    mesh.slots.push_back({});
+    mesh.positions = {{0, 0.5F, 0}, {0, -0.5F, 0}};
+    for (uint32_t i = 0; i < slices; ++i) {
+        const double angle = 2 * 3.14159265358979 * i / slices;
+        mesh.positions.push_back(to_float({std::sin(angle), 0, std::cos(angle)}));
+        const uint32_t here = 2 + i, next = 2 + (i + 1) % slices;
+        mesh.triangles.insert(mesh.triangles.end(), {0, here, next, 1, next, here});
+        mesh.triangle_slot.insert(mesh.triangle_slot.end(), 2, 0);
+    }
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) mesh.wedge_vertex.push_back(v);
+    return mesh;
+}
+
+TEST(CollapseRules, search_no_hub_for_another_hub) {
+    constexpr uint32_t slices = 5000;
+    const Mesh mesh = bipyramid(slices);
+    const CollapseMesh collapsing(mesh);
+    CollapseRules rules(collapsing, find_features(collapsing, {}).kinds);
+    for (uint32_t removed = 2; removed < 2 + slices; ++removed) {
+        EXPECT_EQ(rules.check(removed, 0), Refusal::topology) << "not known, and too long to find out";
+    }
+    EXPECT_LT(rules.searched(), 20 * slices);
+}
+
+// Vertex 0 lies on the edge from 1 to 2, in a triangle without area; 3 is on one side of it, 4 on the other.
+Mesh flat_triangle(bool wound_like_the_rest) {
+    Mesh mesh;
+    mesh.positions = {{1, 0, 0}, {0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1, -1, 0}};
+    mesh.wedge_vertex = {0, 1, 2, 3, 4};
+    mesh.triangles = {1, 0, 3, 0, 2, 3, 2, 1, 4, 0, 1, 2};
+    if (!wound_like_the_rest) std::swap(mesh.triangles[10], mesh.triangles[11]);
+    mesh.triangle_slot = {0, 0, 0, 0};
+    mesh.slots.push_back({});
+    return mesh;
+}
+
+TEST(CollapseRules, let_a_triangle_without_area_open_to_where_the_surface_faces_alone) {
+    for (const bool wound_like_the_rest : {true, false}) {
+        const Mesh mesh = flat_triangle(wound_like_the_rest);
+        const CollapseMesh collapsing(mesh);
+        CollapseRules rules(collapsing, find_features(collapsing, {}).kinds);
+        EXPECT_EQ(rules.check(0, 3), wound_like_the_rest ? Refusal::none : Refusal::topology);
+    }
 }
 
 TEST(BoundsGuard, keeps_the_last_vertex_of_each_side) {
