@@ -19,10 +19,10 @@ namespace {
 
 void print_for_people(const Inspection& inspection, std::ostream& out) {
     const AssetSummary& s = inspection.summary;
-    fmt::print(out, "{}, {}: {}, {} nodes, {} materials, {} images ({})\n", id(s.format),
-               print_bytes(s.bytes), print_meshes(s), print_count(inspection.nodes),
-               print_count(inspection.materials), print_count(inspection.images),
-               print_bytes(s.texture_bytes));
+    fmt::print(out, "{}, {}: {}, {}, {}, {} ({})\n", id(s.format), print_bytes(s.bytes), print_meshes(s),
+               print_count(inspection.nodes, "node", "nodes"),
+               print_count(inspection.materials, "material", "materials"),
+               print_count(inspection.images, "image", "images"), print_bytes(s.texture_bytes));
     fmt::print(out, "triangles: {}; vertices {}, wedges {}\n", print_triangles(s),
                print_count(s.unique_vertices), print_count(s.wedges));
     const Bounds& box = inspection.bounds;

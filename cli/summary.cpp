@@ -8,8 +8,8 @@
 namespace coppice {
 
 std::string print_meshes(const AssetSummary& summary) {
-    return fmt::format("{} unique meshes, {} instances", print_count(summary.meshes),
-                       print_count(summary.instances));
+    return fmt::format("{}, {}", print_count(summary.meshes, "unique mesh", "unique meshes"),
+                       print_count(summary.instances, "instance", "instances"));
 }
 
 std::string print_triangles(const AssetSummary& summary) {

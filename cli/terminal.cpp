@@ -20,4 +20,8 @@ std::string print_count(uint64_t count) {
     return digits;
 }
 
+std::string print_count(uint64_t count, std::string_view one, std::string_view many) {
+    return fmt::format("{} {}", print_count(count), count == 1 ? one : many);
+}
+
 }  // namespace coppice

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <ostream>
 #include <string>
+#include <string_view>
 
 namespace coppice {
 
@@ -13,7 +14,8 @@ struct Terminal {
     bool shows_progress = false;  // err is a terminal that someone watches
 };
 
-std::string print_bytes(uint64_t bytes);  // "12.3 MB"
-std::string print_count(uint64_t count);  // "1,234,567"
+std::string print_bytes(uint64_t bytes);                                               // "12.3 MB"
+std::string print_count(uint64_t count);                                               // "1,234,567"
+std::string print_count(uint64_t count, std::string_view one, std::string_view many);  // "1 mesh", "2 meshes"
 
 }  // namespace coppice

@@ -26,15 +26,28 @@ bool write_bytes(const fs::path& path, ByteView bytes) {
     return !file.fail();
 }
 
+// What a link points to in the end, whether that is there or not: as with a shell's >, the link stays and the
+// file comes to be where it points.
+fs::path target_of(const fs::path& path) {
+    constexpr int most_links = 40;  // as in the kernel
+    fs::path target = path;
+    std::error_code error;
+    for (int links = 0; fs::is_symlink(target, error); ++links) {
+        if (links == most_links) fail_writing(path, "it is a link that leads back to itself");
+        target = target.parent_path() / fs::read_symlink(target, error);
+        if (error) fail_writing(path, error.message());
+    }
+    return target;
+}
+
 // A file that is written, and not yet in its place.
 class Staged {
   public:
-    explicit Staged(const NewFile& file) : file_(file), target_(file.path) {
+    explicit Staged(const NewFile& file) : file_(file), target_(target_of(file.path)) {
         std::error_code error;
         if (fs::is_directory(file.path, error)) fail_writing(file.path, "a folder has this name");
         replaces_ = fs::is_regular_file(file.path, error) || !fs::exists(file.path, error);
         if (!replaces_) return;  // a device: there is nothing to prepare
-        if (fs::is_symlink(file.path, error)) target_ = fs::weakly_canonical(file.path, error);
         partial_ = target_;
         partial_ += ".partial-" + std::to_string(getpid());
         if (write_bytes(partial_, file.bytes)) return;

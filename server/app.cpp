@@ -49,6 +49,7 @@ Log::Fields describe(const Exchange& exchange) {
                           {"address", exchange.remote_address}};
     if (!exchange.job.empty()) fields.emplace_back("job", exchange.job);
     if (!exchange.fault.empty()) fields.emplace_back("error", exchange.fault);
+    if (exchange.count > 1) fields.emplace_back("count", static_cast<int64_t>(exchange.count));
     return fields;
 }
 
@@ -74,8 +75,10 @@ struct Service::State {
     }
 
     void observe(const Exchange& exchange) {
-        metrics.request_done(exchange.method, exchange.route, exchange.status, exchange.time.count(),
-                             exchange.bytes_in, exchange.bytes_out);
+        for (uint64_t i = 0; i < exchange.count; ++i) {
+            metrics.request_done(exchange.method, exchange.route, exchange.status, exchange.time.count(),
+                                 exchange.bytes_in, exchange.bytes_out);
+        }
         const auto fields = describe(exchange);
         exchange.fault.empty() ? log->info("request", fields) : log->error("request", fields);
     }

@@ -26,11 +26,9 @@ struct Setting {
          fmt::format("the setting {} is \"{}\"; it takes {}", name, value, takes));
 }
 
-uint64_t parse_number(std::string_view name, const std::string& text, uint64_t least, uint64_t most) {
-    const auto number = parse_whole_number(text);
-    if (!number || *number < least || *number > most) {
-        fail_invalid(name, text, fmt::format("a whole number from {} to {}", least, most));
-    }
+uint64_t number_of(std::string_view name, const std::string& text, uint64_t least, uint64_t most) {
+    const auto number = parse_whole_number(text, least, most);
+    if (!number) fail_invalid(name, text, fmt::format("a whole number from {} to {}", least, most));
     return *number;
 }
 
@@ -40,8 +38,8 @@ Setting number(std::string_view name, std::string_view help, uint64_t least, uin
     return {name, help,
             [=](Config& config, const std::string& text) {
                 auto& value = member(config);
-                value = static_cast<std::remove_reference_t<decltype(value)>>(
-                    parse_number(name, text, least, most));
+                value =
+                    static_cast<std::remove_reference_t<decltype(value)>>(number_of(name, text, least, most));
             },
             [=](const Config& config) { return std::to_string(member(const_cast<Config&>(config))); }};
 }
@@ -53,7 +51,7 @@ Setting duration(std::string_view name, std::string_view help, uint64_t least, u
         [=](Config& config, const std::string& text) {
             auto& value = member(config);
             value = std::remove_reference_t<decltype(value)>(
-                static_cast<int64_t>(parse_number(name, text, least, most)));
+                static_cast<int64_t>(number_of(name, text, least, most)));
         },
         [=](const Config& config) { return std::to_string(member(const_cast<Config&>(config)).count()); }};
 }
@@ -257,7 +255,7 @@ ListenAddress parse_listen(const std::string& listen) {
     if (colon == std::string::npos || colon == 0) fail_invalid("listen", listen, "ADDRESS:PORT");
     ListenAddress address;
     address.host = listen.substr(0, colon);
-    address.port = static_cast<int>(parse_number("listen", listen.substr(colon + 1), 0, 65'535));
+    address.port = static_cast<int>(number_of("listen", listen.substr(colon + 1), 0, 65'535));
     if (address.host.starts_with('[') && address.host.ends_with(']')) {
         address.host = address.host.substr(1, address.host.size() - 2);
     }

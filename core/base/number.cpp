@@ -22,8 +22,9 @@ std::optional<double> parse_number(std::string_view text) {
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-std::optional<uint64_t> parse_whole_number(std::string_view text) {
-    return parse<uint64_t>(text);
+std::optional<uint64_t> parse_whole_number(std::string_view text, uint64_t least, uint64_t most) {
+    const auto value = parse<uint64_t>(text);
+    return value && *value >= least && *value <= most ? value : std::nullopt;
 }
 
 }  // namespace coppice

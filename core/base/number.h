@@ -11,7 +11,8 @@ namespace coppice {
 // anything else: white space, a comma, a leading +, hexadecimal, inf, nan, a number too large for a double.
 std::optional<double> parse_number(std::string_view text);
 
-// The whole text as decimal digits and nothing else; none where the number has more than 64 bits.
-std::optional<uint64_t> parse_whole_number(std::string_view text);
+// The whole text as decimal digits and nothing else; none where the number is not from least to most.
+std::optional<uint64_t> parse_whole_number(std::string_view text, uint64_t least = 0,
+                                           uint64_t most = UINT64_MAX);
 
 }  // namespace coppice

@@ -19,7 +19,7 @@ struct ReadLimits {
     uint32_t meshes_and_primitives = 65'536;
     uint32_t accessors = 200'000;  // and as many buffer views
     uint32_t objects = 200'000;    // of all other kinds together, from scenes to the channels of animations
-    uint32_t attributes = 4096;    // of a mesh, over all its primitives and morph targets
+    uint32_t attributes = 256;     // of a mesh, over all its primitives and morph targets
     uint64_t attribute_bytes =
         1ULL << 30;  // of all accessors as they are stored, and of all attributes as floats
     uint32_t images = 512;

@@ -37,6 +37,18 @@ void sync_folder(const std::filesystem::path& folder) {
     sync(open_file(folder, O_RDONLY | O_DIRECTORY, "open the data directory"));
 }
 
+// What is new in a folder that cannot be synced is taken back: else the next who finds it would take it for
+// safe.
+template <typename TakeBack>
+void sync_folder_or(const std::filesystem::path& folder, const TakeBack& take_back) {
+    try {
+        sync_folder(folder);
+    } catch (...) {
+        take_back();
+        throw;
+    }
+}
+
 bool is_blob_name(std::string_view name) {
     return name.size() == 64 && std::all_of(name.begin(), name.end(), [](char c) {
                return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
@@ -157,17 +169,12 @@ void DiskBlobs::publish(const std::filesystem::path& incoming, const std::string
     const auto path = path_of(sha256);
     if (::access(path.c_str(), F_OK) != 0) {
         if (::mkdir(path.parent_path().c_str(), 0700) == 0) {
-            sync_folder(folder_ / "blobs");
+            sync_folder_or(folder_ / "blobs", [&] { ::rmdir(path.parent_path().c_str()); });
         } else if (errno != EEXIST) {
             fail_with_errno("make a folder for the stored bytes");
         }
         if (::rename(incoming.c_str(), path.c_str()) != 0) fail_with_errno("store the bytes");
-        try {
-            sync_folder(path.parent_path());
-        } catch (...) {  // else the next who brings the same bytes would take them for safe
-            ::unlink(path.c_str());
-            throw;
-        }
+        sync_folder_or(path.parent_path(), [&] { ::unlink(path.c_str()); });
     }
     ++held_[sha256];
 }

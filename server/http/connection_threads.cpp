@@ -14,22 +14,24 @@ ConnectionThreads::~ConnectionThreads() {
     for (std::thread& thread : threads_) thread.join();
 }
 
-bool ConnectionThreads::run(std::function<void()> connection) {
+ConnectionThreads::Outcome ConnectionThreads::run(std::function<void()> connection) {
     const std::scoped_lock lock(mutex_);
-    if (waiting_.size() >= idle_ && !start_thread()) return false;
+    if (waiting_.size() >= idle_) {
+        if (const Outcome outcome = start_thread(); outcome != Outcome::runs) return outcome;
+    }
     waiting_.push_back(std::move(connection));
     ready_.notify_one();
-    return true;
+    return Outcome::runs;
 }
 
-bool ConnectionThreads::start_thread() {
-    if (threads_.size() >= most_) return false;
+ConnectionThreads::Outcome ConnectionThreads::start_thread() {
+    if (threads_.size() >= most_) return Outcome::all_busy;
     try {
         threads_.emplace_back([this] { work(); });
         ++idle_;  // it will look for work as soon as it can
-        return true;
-    } catch (const std::system_error&) {  // the system gives no more of them
-        return false;
+        return Outcome::runs;
+    } catch (const std::system_error&) {
+        return Outcome::no_thread;
     }
 }
 

@@ -17,11 +17,15 @@ class ConnectionThreads {
     ConnectionThreads(const ConnectionThreads&) = delete;
     ConnectionThreads& operator=(const ConnectionThreads&) = delete;
 
-    // False: every thread is busy, and there can be no further one. `connection` throws nothing.
-    bool run(std::function<void()> connection);
+    // What became of a connection: a thread runs it, all are busy and there may be no further one, or the
+    // system gives no further one.
+    enum class Outcome { runs, all_busy, no_thread };
+
+    // `connection` throws nothing.
+    Outcome run(std::function<void()> connection);
 
   private:
-    bool start_thread();
+    Outcome start_thread();
     void work();
 
     const size_t most_;

@@ -19,7 +19,8 @@ struct Exchange {
     uint64_t bytes_in = 0;   // of the body
     uint64_t bytes_out = 0;  // of the body
     std::chrono::duration<double> time{0};
-    std::string fault;  // what failed on our side; clients are not told all of it
+    std::string fault;   // what failed on our side; clients are not told all of it
+    uint64_t count = 1;  // more: so many connections were refused alike, and this is the last of them
 };
 
 // Called from several threads at a time.

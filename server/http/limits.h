@@ -1,4 +1,5 @@
-// What one HTTP exchange may cost. Each is a setting, and each refusal names it.
+// What one HTTP exchange may cost. Each is a setting that its refusal names, but for the last, which refuses
+// nothing.
 #pragma once
 
 #include <chrono>

@@ -11,6 +11,7 @@
 #include "server/http/answer.h"
 #include "server/http/connection_threads.h"
 #include "server/http/listener.h"
+#include "server/http/refusals.h"
 #include "server/http/session.h"
 #include "server/http/turned_away.h"
 
@@ -65,6 +66,12 @@ Problem too_many(const HttpLimits& limits) {
             {}};
 }
 
+Problem no_thread() {
+    return {ErrorCode::queue_full,
+            "the system gives the service no more threads to serve connections; try again soon",
+            {}};
+}
+
 }  // namespace
 
 class HttpServer::Front {
@@ -88,14 +95,20 @@ class HttpServer::Front {
     }
 
   private:
+    struct Refused {
+        TurnedAway turned_away;
+        Refusals told;
+    };
+
     void accept_all() {
         ConnectionThreads threads(serving_.limits.connections + spare_threads);
-        TurnedAway turned_away;
+        Refused refused{{}, Refusals(serving_.observe)};
         while (!listener_->is_stopped()) {
             try {
-                auto accepted = listener_->accept(turned_away.empty() ? 1000ms : 50ms);
-                if (accepted) take(std::move(*accepted), threads, turned_away);
-                turned_away.tidy();
+                auto accepted = listener_->accept(refused.turned_away.empty() ? 1000ms : 50ms);
+                if (accepted) take(std::move(*accepted), threads, refused);
+                refused.turned_away.tidy();
+                refused.told.tell();
             } catch (
                 const std::exception&) {  // no memory: this connection ends, and the next may find some again
             }
@@ -104,15 +117,19 @@ class HttpServer::Front {
 
     // Only an address that has too many connections is refused here, at no cost; over the cap of all, a spare
     // thread looks whether it is health that is asked for: a busy service is not a dead one.
-    void take(Accepted accepted, ConnectionThreads& threads, TurnedAway& turned_away) {
+    void take(Accepted accepted, ConnectionThreads& threads, Refused& refused) {
         const int yes = 1;
         ::setsockopt(accepted.socket.number(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
         const auto guest = std::make_shared<Guest>(serving_.connections, std::move(accepted));
         if (guest->verdict() == Connections::Verdict::too_many_from_address) {
-            turn_away(*guest, too_many_from_address(serving_.limits), turned_away);
-        } else if (!threads.run([this, guest] { serve(*guest); })) {
-            turn_away(*guest, too_many(serving_.limits), turned_away);
+            turn_away(*guest, too_many_from_address(serving_.limits), refused);
+            return;
         }
+        using Outcome = ConnectionThreads::Outcome;
+        const Outcome outcome = threads.run([this, guest] { serve(*guest); });
+        if (outcome == Outcome::all_busy) turn_away(*guest, too_many(serving_.limits), refused);
+        if (outcome == Outcome::no_thread)
+            turn_away(*guest, no_thread(), refused, "there are no more threads");
     }
 
     void serve(const Guest& guest) {
@@ -123,7 +140,8 @@ class HttpServer::Front {
         }
     }
 
-    void turn_away(Guest& guest, const Problem& problem, TurnedAway& turned_away) {
+    // fault: for the log, where it is the machine's and not the clients'.
+    void turn_away(Guest& guest, const Problem& problem, Refused& refused, const char* fault = "") {
         Response response;
         Exchange exchange;
         exchange.request_id = serving_.next_request_id();
@@ -132,8 +150,9 @@ class HttpServer::Front {
         set_common_headers(response, exchange.request_id);
         exchange.status = response.status;
         exchange.bytes_out = response.body.size();
-        turned_away.turn_away(guest.release_socket(), print_last_answer(response));
-        if (serving_.observe) serving_.observe(exchange);
+        exchange.fault = fault;
+        refused.turned_away.turn_away(guest.release_socket(), print_last_answer(response));
+        refused.told.add(std::move(exchange));
     }
 
     Serving serving_;

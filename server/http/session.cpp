@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <random>
 
 #include "core/base/error.h"
 #include "server/http/answer.h"
@@ -24,6 +25,7 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto linger_time = 2s;
+constexpr uint64_t linger_bytes = 64 << 20;
 constexpr auto spare_header_time = 1s;  // a connection over the limit has to be quick
 constexpr auto longest_answer = 24h;    // the rate ends a slow one before
 constexpr size_t send_bytes = 256 << 10;
@@ -165,9 +167,11 @@ class Session final : private httplib::Server {
         observe(body.bytes_read());
         body_ = nullptr;
         request_.body = nullptr;
-        // An answer that came before the body was read: what is left of it must never be taken for a request.
-        if (!body.is_finished()) wire_.linger(linger_time);
-        return sent && keep_alive_ && body.is_finished();
+        // Where the answer came before the body was read, what is left of it must never be taken for a
+        // request; and after an answer that broke off, another would be taken for its end.
+        const bool goes_on = sent && keep_alive_ && body.is_finished();
+        if (sent && !goes_on) wire_.linger(linger_time, linger_bytes);
+        return goes_on;
     }
 
     void run(httplib::Response& result) {
@@ -229,7 +233,7 @@ class Session final : private httplib::Server {
         wire_.flush(patience);
         exchange_.bytes_out = response_.body.size();
         observe(0);
-        wire_.linger(linger_time);
+        wire_.linger(linger_time, linger_bytes);
     }
 
     void observe(uint64_t bytes_in) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <random>
 #include <string>
 
 #include "server/http/connections.h"

@@ -171,14 +171,18 @@ bool Wire::is_gone() const {
     return got == 0 || (got < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR);
 }
 
-void Wire::linger(std::chrono::milliseconds at_most) {
+void Wire::linger(std::chrono::milliseconds at_most, uint64_t at_most_bytes) {
     ::shutdown(socket_, SHUT_WR);
     Patience patience(at_most);
-    const auto end =
-        Clock::now() + at_most;  // a fast sender never makes us wait, and must not keep us either
+    // A fast sender never makes us wait, and must not keep us either.
+    const auto end = Clock::now() + at_most;
     std::array<std::byte, receive_buffer_bytes> swallowed{};
+    uint64_t bytes = 0;
     try {
-        while (Clock::now() < end && receive(swallowed, patience) > 0) {
+        while (Clock::now() < end && bytes < at_most_bytes) {
+            const size_t got = receive(swallowed, patience);
+            if (got == 0) break;
+            bytes += got;
         }
     } catch (const Error&) {  // waited long enough
     }

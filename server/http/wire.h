@@ -58,8 +58,10 @@ class Wire {
     bool flush(Patience& patience);
 
     bool is_gone() const;  // the other side closed or reset
-    // No more answers; swallows what still comes, so that ours arrives.
-    void linger(std::chrono::milliseconds at_most);
+    // No more answers. Swallows what still comes, since closing on it would reset the connection, and what
+    // the other side has not taken yet would be lost; until that side closes too, or has had this time or
+    // sent this much.
+    void linger(std::chrono::milliseconds at_most, uint64_t at_most_bytes);
 
   private:
     bool wait_for(short events, Patience& patience);

@@ -11,9 +11,9 @@ namespace {
 constexpr size_t default_limit = 100;
 constexpr size_t max_limit = 1000;
 
-uint64_t parse_number(const std::string& name, const std::string& text, uint64_t least, uint64_t most) {
-    const auto number = parse_whole_number(text);
-    require(number && *number >= least && *number <= most, ErrorCode::option_invalid, name,
+uint64_t number_of(const std::string& name, const std::string& text, uint64_t least, uint64_t most) {
+    const auto number = parse_whole_number(text, least, most);
+    require(number.has_value(), ErrorCode::option_invalid, name,
             "{} is \"{}\"; it takes a whole number from {} to {}", name, text, least, most);
     return *number;
 }
@@ -30,9 +30,9 @@ JobQuery parse_query(const Request& request) {
             require(query.status.has_value(), ErrorCode::option_invalid, name,
                     "status is \"{}\"; it takes queued, running, succeeded, failed or cancelled", value);
         } else if (name == "limit") {
-            query.limit = parse_number(name, value, 1, max_limit);
+            query.limit = number_of(name, value, 1, max_limit);
         } else if (name == "cursor") {
-            query.before = parse_number(name, value, 0, UINT64_MAX);
+            query.before = number_of(name, value, 0, UINT64_MAX);
         } else {
             fail(ErrorCode::option_unknown, name,
                  fmt::format("\"{}\" is not known here; it takes status, limit and cursor", name));

@@ -31,4 +31,8 @@ struct Services {
     std::atomic<size_t> waiting = 0;
 };
 
+// Throws service_draining, queue_full: no new work is taken. The store has the last word on its queue; asked
+// before, it spares an upload that would only be refused.
+void require_room(const Services& services);
+
 }  // namespace coppice

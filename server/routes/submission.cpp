@@ -17,16 +17,6 @@ using namespace std::chrono_literals;
 
 constexpr auto look_after_client_every = 500ms;
 
-void require_room(Services& services) {
-    require(!services.draining.stop_requested(), ErrorCode::service_draining, "",
-            "the service is shutting down and takes no new work");
-    // The store has the last word; this spares an upload that would only be refused.
-    const size_t queued = services.store.counts().queued;
-    require(queued < services.settings.queue_length, ErrorCode::queue_full, "",
-            "{} jobs wait already, the limit is {} (queue_length); try again soon", queued,
-            services.settings.queue_length);
-}
-
 class CountedWait {
   public:
     explicit CountedWait(std::atomic<size_t>& waiting) : waiting_(waiting), place_(waiting_++) {}

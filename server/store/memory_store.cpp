@@ -13,20 +13,27 @@ Job MemoryStore::submit(NewJob job) {
     require(queue_.size() < limits_.queued, ErrorCode::queue_full, "",
             "{} jobs wait already, the limit is {} (queue_length); try again soon", queue_.size(),
             limits_.queued);
+    const uint64_t sequence = next_sequence_++;
     Entry made;
-    made.sequence = next_sequence_++;
+    made.sequence = sequence;
     made.record.job.id = make_job_id();
     made.record.job.kind = job.kind;
     made.record.job.options = std::move(job.options);
     made.record.job.created_at = now_();
     made.record.asset = std::move(job.asset);
     made.record.resources = std::move(job.resources);
-    count_references(made.record, 1);
-    const Job view = made.record.job;
-    const uint64_t sequence = made.sequence;
-    jobs_.emplace(view.id, std::move(made));  // first: the others name it
-    by_sequence_[sequence] = view.id;
-    queue_[sequence] = view.id;
+    Job view = made.record.job;
+    try {
+        const Entry& entry = jobs_.emplace(view.id, std::move(made)).first->second;
+        by_sequence_.emplace(sequence, view.id);
+        queue_.emplace(sequence, view.id);
+        add_references(blobs_of(entry.record));
+    } catch (...) {  // no memory
+        queue_.erase(sequence);
+        by_sequence_.erase(sequence);
+        jobs_.erase(view.id);
+        throw;
+    }
     work_.notify_one();
     return view;
 }
@@ -36,17 +43,19 @@ std::optional<Claim> MemoryStore::claim() {
     requeue_lapsed();
     if (queue_.empty()) return std::nullopt;
     Entry& next = jobs_.at(queue_.begin()->second);
-    running_[next.sequence] = next.record.job.id;  // first: it may find no memory
-    queue_.erase(queue_.begin());
-    next.token = next_token_++;
-    next.lease_until = now_() + limits_.lease;
-    Job& job = next.record.job;
-    job.status = JobStatus::running;
-    job.stage = "read";
-    job.progress = 0;
-    ++job.attempts;
-    if (!job.started_at) job.started_at = now_();
-    return Claim{next.record, next.token};
+    Claim claim{next.record, next_token_++};  // first: it may find no memory
+    running_.insert(queue_.extract(queue_.begin()));
+    const Time now = now_();
+    next.token = claim.token;
+    next.lease_until = now + limits_.lease;
+    for (Job* const job : {&next.record.job, &claim.record.job}) {
+        job->status = JobStatus::running;
+        job->stage = "read";
+        job->progress = 0;
+        ++job->attempts;
+        if (!job->started_at) job->started_at = now;
+    }
+    return claim;
 }
 
 // A worker that has not renewed its lease is taken for dead.
@@ -58,16 +67,15 @@ void MemoryStore::requeue_lapsed() {
     for (const std::string& id : lapsed) {
         Entry& dead = jobs_.at(id);
         if (dead.record.job.attempts >= limits_.attempts) {
-            dead.record.job.problem =
-                Problem{ErrorCode::job_quarantined,
-                        fmt::format("{} attempts ended without an answer; the job is set aside",
-                                    dead.record.job.attempts),
-                        {}};
+            Problem problem{ErrorCode::job_quarantined,
+                            fmt::format("{} attempts ended without an answer; the job is set aside",
+                                        dead.record.job.attempts),
+                            {}};
             finish(dead, JobStatus::failed);
+            dead.record.job.problem = std::move(problem);
             continue;
         }
-        running_.erase(dead.sequence);
-        queue_[dead.sequence] = id;
+        queue_.insert(running_.extract(dead.sequence));
         dead.token = 0;
         dead.record.job.status = JobStatus::queued;
         dead.record.job.stage = "queued";
@@ -96,12 +104,17 @@ bool MemoryStore::renew(const std::string& id, uint64_t token, const std::string
 }
 
 void MemoryStore::finish(Entry& done, JobStatus status) {
+    const Time now = now_();
+    done_.emplace(std::pair(now, done.sequence), done.record.job.id);  // first: it may find no memory
+    end(done, status, now);
+}
+
+void MemoryStore::end(Entry& done, JobStatus status, Time now) {
     queue_.erase(done.sequence);
     running_.erase(done.sequence);
     done.token = 0;
     done.record.job.status = status;
-    done.record.job.finished_at = now_();
-    done_[{*done.record.job.finished_at, done.sequence}] = done.record.job.id;
+    done.record.job.finished_at = now;
     finished_.notify_all();
 }
 
@@ -109,12 +122,17 @@ bool MemoryStore::complete(const std::string& id, uint64_t token, JobResult resu
     const std::scoped_lock lock(mutex_);
     Entry* const found = current(id, token);
     if (found == nullptr) return false;
+    const Blobs blobs = {&result.file.sha256, &result.report.sha256};
+    add_references(blobs);
+    try {
+        finish(*found, JobStatus::succeeded);
+    } catch (...) {  // no memory
+        drop_references(blobs);
+        throw;
+    }
     found->record.job.progress = 1;
     found->record.job.stage = "write";
-    ++references_[result.file.sha256];
-    ++references_[result.report.sha256];
     found->record.result = std::move(result);
-    finish(*found, JobStatus::succeeded);
     return true;
 }
 
@@ -122,8 +140,8 @@ bool MemoryStore::fail(const std::string& id, uint64_t token, Problem problem) {
     const std::scoped_lock lock(mutex_);
     Entry* const found = current(id, token);
     if (found == nullptr) return false;
-    found->record.job.problem = std::move(problem);
     finish(*found, JobStatus::failed);
+    found->record.job.problem = std::move(problem);
     return true;
 }
 
@@ -137,8 +155,7 @@ bool MemoryStore::give_back(const std::string& id, uint64_t token) {
     job.stage = "queued";
     job.progress = 0;
     --job.attempts;
-    running_.erase(found->sequence);
-    queue_[found->sequence] = id;
+    queue_.insert(running_.extract(found->sequence));
     work_.notify_one();
     return true;
 }
@@ -157,9 +174,14 @@ Job MemoryStore::cancel(const std::string& id) {
     Job& job = found.record.job;
     require(!is_finished(job.status), ErrorCode::job_finished, "",
             "the job is {} and cannot be cancelled any more", name(job.status));
-    job.problem = Problem{ErrorCode::job_cancelled, "the job was cancelled", {}};
+    Problem problem{ErrorCode::job_cancelled, "the job was cancelled", {}};
+    Job view = job;
+    view.problem = problem;
     finish(found, JobStatus::cancelled);
-    return job;
+    view.status = job.status;
+    view.finished_at = job.finished_at;
+    job.problem = std::move(problem);
+    return view;
 }
 
 JobRecord MemoryStore::find(const std::string& id) {
@@ -170,14 +192,18 @@ JobRecord MemoryStore::find(const std::string& id) {
 JobRecord MemoryStore::remove(const std::string& id) {
     const std::scoped_lock lock(mutex_);
     Entry& found = entry(id);
-    if (!is_finished(found.record.job.status)) finish(found, JobStatus::cancelled);
-    done_.erase({*found.record.job.finished_at, found.sequence});
+    const Blobs blobs = blobs_of(found.record);
+    removed_.push_back(id);   // by itself it means nothing
+    removed_ids_.insert(id);  // the last that may find no memory
+    if (is_finished(found.record.job.status)) {
+        done_.erase({*found.record.job.finished_at, found.sequence});
+    } else {
+        end(found, JobStatus::cancelled, now_());
+    }
     by_sequence_.erase(found.sequence);
-    count_references(found.record, -1);
+    drop_references(blobs);
     JobRecord was = std::move(found.record);
     jobs_.erase(id);
-    removed_.push_back(id);
-    removed_ids_.insert(id);
     if (removed_.size() > limits_.remembered_removals) {
         removed_ids_.erase(removed_.front());
         removed_.pop_front();
@@ -185,15 +211,31 @@ JobRecord MemoryStore::remove(const std::string& id) {
     return was;
 }
 
-void MemoryStore::count_references(const JobRecord& record, int by) {
-    const auto count = [&](const std::string& sha256) {
-        if ((references_[sha256] += by) == 0) references_.erase(sha256);
-    };
-    count(record.asset.sha256);
-    for (const StoredFile& resource : record.resources) count(resource.sha256);
-    if (!record.result) return;
-    count(record.result->file.sha256);
-    count(record.result->report.sha256);
+MemoryStore::Blobs MemoryStore::blobs_of(const JobRecord& record) {
+    Blobs blobs = {&record.asset.sha256};
+    for (const StoredFile& resource : record.resources) blobs.push_back(&resource.sha256);
+    if (record.result) {
+        blobs.push_back(&record.result->file.sha256);
+        blobs.push_back(&record.result->report.sha256);
+    }
+    return blobs;
+}
+
+void MemoryStore::add_references(const Blobs& blobs) {
+    size_t added = 0;
+    try {
+        for (; added < blobs.size(); ++added) ++references_[*blobs[added]];
+    } catch (...) {  // no memory
+        drop_references(std::span(blobs).first(added));
+        throw;
+    }
+}
+
+void MemoryStore::drop_references(std::span<const std::string* const> blobs) {
+    for (const std::string* const sha256 : blobs) {
+        const auto found = references_.find(*sha256);
+        if (--found->second == 0) references_.erase(found);
+    }
 }
 
 void MemoryStore::wait_until_finished(const std::string& id, std::stop_token stop,

@@ -1,12 +1,14 @@
-// Jobs in memory: gone with the process.
+// Jobs in memory: gone with the process. Where memory runs out within a call, what it began is taken back.
 #pragma once
 
 #include <condition_variable>
 #include <deque>
 #include <map>
 #include <mutex>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 #include "server/store/job_store.h"
 
@@ -45,7 +47,12 @@ class MemoryStore final : public JobStore {
     Entry& entry(const std::string& id);                    // throws job_not_found, job_deleted
     Entry* current(const std::string& id, uint64_t token);  // null: stale
     void finish(Entry& done, JobStatus status);
-    void count_references(const JobRecord& record, int by);
+    void end(Entry& done, JobStatus status, Time now);  // finds no place for it among those that are done
+
+    using Blobs = std::vector<const std::string*>;  // into a record or a result
+    static Blobs blobs_of(const JobRecord& record);
+    void add_references(const Blobs& blobs);
+    void drop_references(std::span<const std::string* const> blobs);
     void requeue_lapsed();
 
     const JobStoreLimits limits_;

@@ -173,6 +173,41 @@ TEST_F(CommandLine, does_not_replace_a_different_file_that_is_in_the_way) {
     }
 }
 
+TEST_F(CommandLine, writes_to_where_a_link_points_though_nothing_is_there_yet) {
+    make_sample("in.glb");
+    fs::create_directory(folder_ / "sub");
+    fs::create_symlink("sub/second.glb", folder_ / "first.glb");
+    fs::create_symlink("real.glb", folder_ / "sub" / "second.glb");
+    for (const char* ratio : {"0.9", "0.5"}) {  // the second time it is there
+        ASSERT_EQ(run({"optimize", path("in.glb"), "-o", path("first.glb"), "--ratio", ratio}), 0) << err();
+        EXPECT_TRUE(fs::is_symlink(folder_ / "first.glb"));
+        EXPECT_TRUE(fs::is_symlink(folder_ / "sub" / "second.glb"));
+        EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder_ / "sub" / "real.glb")));
+        EXPECT_THAT(content("sub/real.glb"), StartsWith("glTF"));
+    }
+}
+
+TEST_F(CommandLine, refuses_a_link_that_leads_nowhere_and_says_so) {
+    make_sample("in.glb");
+    const auto refused = [&](const std::string& target) {
+        fs::create_symlink(target, folder_ / "link.glb");
+        EXPECT_EQ(run({"optimize", path("in.glb"), "-o", path("link.glb")}), 1);
+        EXPECT_EQ(fs::read_symlink(folder_ / "link.glb"), target);
+        fs::remove(folder_ / "link.glb");
+        return err();
+    };
+    EXPECT_THAT(refused("no/such/folder/out.glb"),
+                HasSubstr("link.glb cannot be written: is its folder there"));
+    EXPECT_THAT(refused("link.glb"),
+                HasSubstr("link.glb cannot be written: it is a link that leads back to itself"));
+}
+
+TEST_F(CommandLine, counts_one_as_one) {
+    std::ofstream(folder_ / "one.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    EXPECT_EQ(run({"inspect", path("one.obj")}), 0) << err();
+    EXPECT_THAT(out(), HasSubstr("1 unique mesh, 1 instance, 1 node, "));
+}
+
 TEST_F(CommandLine, takes_parameters_of_algorithms) {
     make_sample("in.glb");
     ASSERT_EQ(run({"optimize", path("in.glb"), "-o", path("out.glb"), "--parameters.mode", "faithful",

@@ -1,8 +1,10 @@
-// The routes and the contract hold the same operations; and the documentation holds every setting.
+// The routes and the contract hold the same operations, and take no method but those; and the documentation
+// holds every setting.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -12,7 +14,8 @@
 #include "server/config.h"
 #include "server/routes/routes.h"
 #include "server/store/memory_store.h"
-#include "tests/server/temporary_folder.h"
+#include "tests/server/service_fixture.h"
+#include "tests/server/test_scenes.h"
 
 namespace coppice {
 namespace {
@@ -44,17 +47,91 @@ std::set<std::string> operations_of_the_routes() {
     return operations;
 }
 
+// By path, with the id of a job that has finished.
+std::map<std::string, std::set<std::string>> methods_of_the_routes(const std::string& job) {
+    std::map<std::string, std::set<std::string>> methods;
+    for (const std::string& operation : operations_of_the_routes()) {
+        const size_t space = operation.find(' ');
+        std::string path = operation.substr(space + 1);
+        if (const size_t id = path.find("/v1/jobs/{id}"); id == 0) path.replace(0, 13, job);
+        methods[path].insert(operation.substr(0, space));
+    }
+    return methods;
+}
+
+class Routes : public test::ServiceTest {
+  protected:
+    Routes() {
+        start();
+        job = submit(test::iobj_scene());
+        wait_for_status(job, "succeeded");
+    }
+
+    std::string job;
+};
+
+TEST_F(Routes, answer_head_as_get_without_the_content) {
+    for (const auto& [path, methods] : methods_of_the_routes(job)) {
+        if (!methods.contains("GET")) continue;
+        test::Connection connection(port);
+        const test::Answer get = connection.request("GET", path);
+        const test::Answer head = connection.request("HEAD", path);
+        EXPECT_EQ(head.status, 200) << path;
+        EXPECT_EQ(head.body, "") << path;
+        for (const char* name :
+             {"content-type", "content-length", "etag", "cache-control", "accept-ranges"}) {
+            if (path == "/metrics" && name == std::string("content-length"))
+                continue;  // it counts the requests
+            EXPECT_EQ(head.header(name), get.header(name)) << path << " " << name;
+        }
+        EXPECT_NE(head.header("content-length"), "") << path;
+        // What came after the head would be taken for this answer.
+        EXPECT_EQ(connection.request("GET", "/healthz").body, R"({"status":"ok"})") << path;
+    }
+}
+
+TEST_F(Routes, refuse_every_other_method_and_say_which_they_take) {
+    for (const auto& [path, methods] : methods_of_the_routes(job)) {
+        std::set<std::string> taken = methods;
+        if (methods.contains("GET")) taken.insert("HEAD");
+        for (const char* method : {"GET", "HEAD", "POST", "PUT", "DELETE", "PATCH", "OPTIONS", "TRACE",
+                                   "CONNECT", "BREW", "get"}) {
+            if (taken.contains(method)) continue;
+            test::Connection connection(port);
+            const test::Answer answer = connection.request(method, path);
+            EXPECT_EQ(answer.status, 405) << method << " " << path;
+            EXPECT_EQ(answer.header("content-type"), "application/problem+json");
+            std::istringstream allow(answer.header("allow"));
+            std::set<std::string> allowed;
+            for (std::string one; std::getline(allow >> std::ws, one, ',');) allowed.insert(one);
+            EXPECT_EQ(allowed, taken) << method << " " << path;
+            EXPECT_EQ(answer.body.empty(), std::string_view(method) == "HEAD") << method << " " << path;
+            EXPECT_EQ(connection.request("GET", "/healthz").body, R"({"status":"ok"})")
+                << method << " " << path;
+        }
+    }
+}
+
 TEST(Contract, has_exactly_the_operations_that_have_routes) {
     EXPECT_EQ(operations_of_the_contract(), operations_of_the_routes());
 }
 
-TEST(Documentation, explains_every_setting) {
+TEST(Documentation, explains_every_setting_and_tells_its_default) {
     std::ifstream file(COPPICE_SOURCE_DIR "/docs/operations.md");
     ASSERT_TRUE(file);
     std::stringstream text;
     text << file.rdbuf();
     for (const auto& [name, meaning] : describe_settings()) {
         EXPECT_NE(text.str().find("| `" + name + "` |"), std::string::npos) << name << ": " << meaning;
+    }
+    std::istringstream defaults(print_config({}));
+    for (std::string line; std::getline(defaults, line);) {
+        const size_t equals = line.find(" = ");
+        std::string value = line.substr(equals + 3);
+        if (value.front() == '"' || value.front() == '\'')
+            value = "`" + value.substr(1, value.size() - 2) + "`";
+        const std::string row = "| `" + line.substr(0, equals) + "` | " + value + " |";
+        EXPECT_NE(text.str().find(row), std::string::npos) << row;
     }
 }
 

@@ -99,13 +99,6 @@ std::string Connection::receive_until_closed() {
     return std::exchange(buffer_, {});
 }
 
-bool Connection::is_closed_within(int timeout_ms) {
-    pollfd waiting{socket_, POLLIN, 0};
-    if (!buffer_.empty() || ::poll(&waiting, 1, timeout_ms) <= 0) return false;
-    char byte = 0;
-    return ::recv(socket_, &byte, 1, MSG_PEEK) <= 0;
-}
-
 Answer Connection::request(const std::string& method, const std::string& target, const HeaderList& headers,
                            std::string_view body) {
     std::string head = method + " " + target + " HTTP/1.1\r\nHost: test\r\n";

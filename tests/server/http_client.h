@@ -36,7 +36,6 @@ class Connection {
     void finish_sending();                   // what was sent is all there will be
     Answer receive(bool head_only = false);  // one answer; interim ones (1xx) are skipped
     std::string receive_until_closed();      // all that comes
-    bool is_closed_within(int timeout_ms);   // by the other side, with nothing more said
 
     Answer request(const std::string& method, const std::string& target, const HeaderList& headers = {},
                    std::string_view body = {});

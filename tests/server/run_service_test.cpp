@@ -6,6 +6,7 @@
 
 #include <array>
 #include <csignal>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,16 +23,15 @@ namespace {
 // A child process that serves, and its log.
 class ServiceProcess {
   public:
-    // descriptors: as many as it may open; 0: as many as this process.
-    explicit ServiceProcess(const Config& config, rlim_t descriptors = 0) {
+    // prepare: in the child, before it serves.
+    explicit ServiceProcess(const Config& config, const std::function<void()>& prepare = {}) {
         std::array<int, 2> ends{};
         if (::pipe(ends.data()) != 0) throw std::runtime_error("pipe");
         child_ = ::fork();
         if (child_ == 0) {
             ::dup2(ends[1], STDERR_FILENO);
             ::close(ends[0]);
-            const rlimit limit{descriptors, descriptors};
-            if (descriptors > 0) ::setrlimit(RLIMIT_NOFILE, &limit);
+            if (prepare) prepare();
             ::_exit(run_service(config));
         }
         ::close(ends[1]);
@@ -87,7 +87,10 @@ TEST(RunService, outlives_more_connections_than_it_has_descriptors) {
     config.data = folder.path();
     config.slots = 1;
     constexpr rlim_t descriptors = 40;
-    ServiceProcess process(config, descriptors);
+    ServiceProcess process(config, [] {
+        const rlimit limit{descriptors, descriptors};
+        ::setrlimit(RLIMIT_NOFILE, &limit);
+    });
     const int port = process.port();
     ASSERT_GT(port, 0);
     std::vector<std::unique_ptr<test::Connection>> idle;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "tests/core/format/trip_wire.h"
 
 namespace coppice {
 namespace {
@@ -54,14 +55,22 @@ TEST(Zip, gives_back_the_files_that_were_written) {
     EXPECT_EQ(files[1].bytes, two_files[1].bytes);
 }
 
-TEST(Zip, stops_packing_when_it_is_told_to) {
-    NamedFile noise{"noise.bin", Bytes(32 << 20)};
-    uint32_t state = 1;
-    for (std::byte& byte : noise.bytes)
-        byte = static_cast<std::byte>((state = state * 1664525 + 1013904223) >> 24);
+TEST(Zip, stops_packing_when_it_is_told_to_in_the_midst_of_a_file) {
+    const std::vector<NamedFile> files = {{"zeros.bin", Bytes(32 << 20)}};
+    const ByteView bytes = files[0].bytes;
     std::stop_source source;
-    source.request_stop();
-    EXPECT_THROW(write_zip({noise}, {.stop = source.get_token()}), Error);
+    const test::TripWire middle(bytes, bytes.size() / 2, [&] { source.request_stop(); });
+    const test::TripWire end(bytes, bytes.size() - (1 << 20));
+    EXPECT_THROW(write_zip(files, {.stop = source.get_token()}), Error);
+    EXPECT_TRUE(middle.was_touched());
+    EXPECT_FALSE(end.was_touched()) << "it went on";
+}
+
+TEST(Zip, packs_to_the_end_otherwise) {
+    const std::vector<NamedFile> files = {{"zeros.bin", Bytes(32 << 20)}};
+    const test::TripWire end(files[0].bytes, files[0].bytes.size() - (1 << 20));
+    write_zip(files, Watch{});
+    EXPECT_TRUE(end.was_touched());
 }
 
 TEST(Zip, writes_the_same_bytes_again) {

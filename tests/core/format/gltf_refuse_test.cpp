@@ -4,6 +4,7 @@
 #include "core/format/gltf/check_schema.h"
 #include "core/format/gltf/checks.h"
 #include "core/format/gltf/glb.h"
+#include "core/format/gltf/read_buffers.h"
 #include "tests/core/format/gltf_document.h"
 
 namespace coppice {
@@ -20,7 +21,7 @@ using ::testing::StartsWith;
 struct Spoilt {
     const char* name;
     std::function<void(Json&)> spoil;
-    const char* error;  // how the answer begins: code and where
+    std::string error;  // code and where
 };
 
 class GltfRefuses : public ::testing::TestWithParam<Spoilt> {};
@@ -28,16 +29,72 @@ class GltfRefuses : public ::testing::TestWithParam<Spoilt> {};
 TEST_P(GltfRefuses, naming_the_place) {
     GltfBuilder builder = square();
     GetParam().spoil(builder.json);
-    EXPECT_THAT(error_of(builder), StartsWith(GetParam().error));
+    EXPECT_THAT(error_of(builder), StartsWith(GetParam().error + ": "));
+}
+
+// What is there and wrong, or what has not what it must have.
+TEST_P(GltfRefuses, at_a_place_that_is_in_the_document) {
+    GltfBuilder builder = square();
+    GetParam().spoil(builder.json);
+    const std::string where = GetParam().error.substr(GetParam().error.find(' ') + 1);
+    EXPECT_TRUE(builder.json.contains(Json::json_pointer(where))) << where;
 }
 
 const Spoilt spoilt[] = {
     {"another_version", [](Json& j) { j["asset"]["version"] = "1.0"; }, "asset.unsupported /asset/version"},
-    {"no_asset", [](Json& j) { j.erase("asset"); }, "asset.malformed :"},
+    {"no_asset", [](Json& j) { j.erase("asset"); }, "asset.malformed "},
     {"count_of_2_to_the_62", [](Json& j) { j["accessors"][1]["count"] = 4611686018427387904U; },
      "asset.malformed /accessors/1/count"},
     {"count_that_is_too_large", [](Json& j) { j["accessors"][1]["count"] = 1000000000; },
      "asset.malformed /accessors/1"},
+    {"min_of_too_few_numbers",
+     [](Json& j) {
+         j["accessors"][0]["min"] = {0, 0};
+     },
+     "asset.malformed /accessors/0/min"},
+    {"max_with_a_text", [](Json& j) { j["accessors"][0]["max"][2] = "far"; },
+     "asset.malformed /accessors/0/max/2"},
+    {"type_VEC5", [](Json& j) { j["accessors"][0]["type"] = "VEC5"; }, "asset.malformed /accessors/0/type"},
+    {"component_type_of_doubles", [](Json& j) { j["accessors"][0]["componentType"] = 5130; },
+     "asset.malformed /accessors/0/componentType"},
+    {"normalized_floats", [](Json& j) { j["accessors"][0]["normalized"] = true; },
+     "asset.malformed /accessors/0/normalized"},
+    {"more_sparse_elements_than_elements",
+     [](Json& j) {
+         j["accessors"][0]["sparse"] = {{"count", 5},
+                                        {"indices", {{"bufferView", 1}, {"componentType", 5123}}},
+                                        {"values", {{"bufferView", 0}}}};
+     },
+     "asset.malformed /accessors/0/sparse/count"},
+    {"sparse_indices_that_do_not_increase",
+     [](Json& j) {
+         j["bufferViews"].push_back(j["bufferViews"][1]);
+         j["bufferViews"].push_back(j["bufferViews"][0]);
+         j["accessors"][0]["sparse"] = {{"count", 4},
+                                        {"indices", {{"bufferView", 2}, {"componentType", 5123}}},
+                                        {"values", {{"bufferView", 3}}}};
+     },
+     "asset.malformed /accessors/0/sparse/indices"},
+    {"stride_that_is_no_multiple_of_4", [](Json& j) { j["bufferViews"][0]["byteStride"] = 14; },
+     "asset.malformed /bufferViews/0/byteStride"},
+    {"rotation_of_no_length",
+     [](Json& j) {
+         j["nodes"][0]["rotation"] = {0, 0, 0, 0};
+     },
+     "asset.malformed /nodes/0/rotation"},
+    {"skin_without_a_mesh",
+     [](Json& j) {
+         j["nodes"].push_back({{"skin", 0}});
+         j["skins"] = {{{"joints", {0}}}};
+     },
+     "asset.malformed /nodes/1/skin"},
+    {"weights_of_no_morph_targets", [](Json& j) { j["meshes"][0]["weights"] = {1}; },
+     "asset.malformed /meshes/0/weights"},
+    {"texture_of_no_image",
+     [](Json& j) {
+         j["textures"] = {{{"source", 0}}};
+     },
+     "asset.malformed /textures/0/source"},
     {"negative_count", [](Json& j) { j["accessors"][1]["count"] = -1; },
      "asset.malformed /accessors/1/count"},
     {"count_with_a_fraction", [](Json& j) { j["accessors"][1]["count"] = 1.5; },
@@ -61,14 +118,14 @@ const Spoilt spoilt[] = {
     {"unknown_attribute", [](Json& j) { j["meshes"][0]["primitives"][0]["attributes"]["COLOUR"] = 0; },
      "asset.malformed /meshes/0/primitives/0/attributes/COLOUR"},
     {"indices_of_floats", [](Json& j) { j["meshes"][0]["primitives"][0]["indices"] = 0; },
-     "asset.malformed /meshes/0"},
+     "asset.malformed /meshes/0/primitives/0/indices"},
     {"mode_7", [](Json& j) { j["meshes"][0]["primitives"][0]["mode"] = 7; },
      "asset.malformed /meshes/0/primitives/0/mode"},
     {"node_loop",
      [](Json& j) {
          j["nodes"] = {{{"children", {1}}}, {{"children", {0}}}};
      },
-     "asset.malformed /nodes/"},
+     "asset.malformed /nodes/0"},
     {"node_with_two_parents",
      [](Json& j) {
          j["nodes"] = {{{"children", {2}}}, {{"children", {2}}}, {{"mesh", 0}}};
@@ -104,12 +161,12 @@ const Spoilt spoilt[] = {
      [](Json& j) {
          j["images"] = {{{"uri", "../../etc/passwd"}}};
      },
-     "resource.forbidden"},
+     "resource.forbidden /images/0/uri"},
     {"buffer_outside_in_escapes",
      [](Json& j) {
          j["images"] = {{{"uri", "%2e%2e/passwd"}}};
      },
-     "resource.forbidden"},
+     "resource.forbidden /images/0/uri"},
     {"missing_image",
      [](Json& j) {
          j["images"] = {{{"uri", "a.png"}}};
@@ -312,21 +369,58 @@ TEST(GltfRefuse, a_place_with_a_slash_in_a_key_as_json_pointers_have_it) {
     EXPECT_THAT(error_of(builder), StartsWith("asset.malformed /meshes/0/primitives/0/attributes/a~1b~0c"));
 }
 
+// One of everything that a check looks at.
+GltfBuilder square_with_everything() {
+    GltfBuilder builder = square();
+    const size_t times = builder.add<float>({0, 1}, 5126, "SCALAR", 1, {{"min", {0}}, {"max", {1}}});
+    const size_t moves = builder.add<float>({0, 0, 0, 1, 1, 1}, 5126, "VEC3", 3);
+    builder.json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", moves}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+    builder.json["skins"] = {{{"joints", {0}}}};
+    builder.json["materials"] = {{{"name", "red"}}};
+    builder.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+    const size_t places = builder.add<float>({0, 0, 0, 5, 5, 5}, 5126, "VEC3", 3);
+    builder.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", places}};
+    return builder;
+}
+
 TEST(GltfRefuse, stops_inside_of_every_check_when_it_is_told_to) {
+    const std::string text = square_with_everything().gltf();
+    struct Step {
+        const char* name;
+        std::function<void(gltf::Parsed&, const Watch&)> run;
+    };
+    using gltf::Parsed;
+    const Step steps[] = {
+        // in the order of read_gltf: each relies on those before
+        {"parse_json",
+         [&](Parsed& p, const Watch& watch) { p.json = gltf::parse_json(as_bytes(text), {}, watch); }},
+        {"check_schema", [](Parsed& p, const Watch& watch) { gltf::check_schema(p.json, watch); }},
+        {"check_claims", [](Parsed& p, const Watch& watch) { gltf::check_claims(p.json, {}, watch); }},
+        {"check_extensions", [](Parsed& p, const Watch& watch) { gltf::check_extensions(p, watch); }},
+        {"check_nodes", [](Parsed& p, const Watch& watch) { gltf::check_nodes(p, {}, watch); }},
+        {"read_buffers", [](Parsed& p, const Watch& watch) { gltf::read_buffers(p, Resources(), watch); }},
+        {"read_views", [](Parsed& p, const Watch& watch) { gltf::read_views(p, {}, watch); }},
+        {"read_accessors", [](Parsed& p, const Watch& watch) { gltf::read_accessors(p, {}, watch); }},
+        {"check_meshes", [](Parsed& p, const Watch& watch) { gltf::check_meshes(p, watch); }},
+        {"check_skins", [](Parsed& p, const Watch& watch) { gltf::check_skins(p, {}, watch); }},
+        {"check_animations", [](Parsed& p, const Watch& watch) { gltf::check_animations(p, watch); }},
+        {"check_instancing", [](Parsed& p, const Watch& watch) { gltf::check_instancing(p, watch); }},
+        {"check_materials", [](Parsed& p, const Watch& watch) { gltf::check_materials(p, watch); }},
+        {"check_vertex_data", [](Parsed& p, const Watch& watch) { gltf::check_vertex_data(p, {}, watch); }},
+        {"check_accessor_data", [](Parsed& p, const Watch& watch) { gltf::check_accessor_data(p, watch); }},
+    };
     std::stop_source source;
     source.request_stop();
     const Watch stopped{.stop = source.get_token()};
-    const std::string text = square().gltf();
-    EXPECT_THAT(error_of([&] { gltf::parse_json(as_bytes(text), {}, stopped); }),
-                StartsWith("job.cancelled"));
     gltf::Parsed parsed;
-    parsed.json = gltf::parse_json(as_bytes(text), {}, {});
-    EXPECT_THAT(error_of([&] { gltf::check_schema(parsed.json, stopped); }), StartsWith("job.cancelled"));
-    EXPECT_THAT(error_of([&] { gltf::check_claims(parsed.json, {}, stopped); }), StartsWith("job.cancelled"));
-    EXPECT_THAT(error_of([&] { gltf::check_extensions(parsed, stopped); }), StartsWith("job.cancelled"));
-    EXPECT_THAT(error_of([&] { gltf::check_nodes(parsed, {}, stopped); }), StartsWith("job.cancelled"));
-    EXPECT_THAT(error_of([&] { gltf::check_materials(parsed, stopped); }), StartsWith("job.cancelled"));
-    EXPECT_THAT(error_of([&] { gltf::check_instancing(parsed, stopped); }), StartsWith("job.cancelled"));
+    for (const auto& [name, run] : steps) {
+        EXPECT_THAT(error_of([&, &step = run] { step(parsed, stopped); }), StartsWith("job.cancelled"))
+            << name;
+        ASSERT_EQ(error_of([&, &step = run] { step(parsed, {}); }), "no error") << name;
+    }
 }
 
 }  // namespace
