@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace coppice {
 namespace {
 
@@ -15,14 +17,15 @@ Mesh with(std::string name, uint32_t components, std::vector<float> values) {
     Mesh mesh;
     mesh.positions.resize(1);
     mesh.wedge_vertex.assign(values.size() / components, 0);
-    mesh.attributes.push_back({.name = std::move(name), .components = components, .values = values});
+    mesh.attributes.push_back(
+        {.name = std::move(name), .components = components, .values = std::move(values)});
     return mesh;
 }
 
 const std::vector<uint32_t> two = {0, 1};
 
 // What wedge 0 has after it was made of so much of both.
-std::vector<float> mixed(Mesh mesh, double of_first, double of_second) {
+std::vector<float> mixed(const Mesh& mesh, double of_first, double of_second) {
     WedgeValues values(mesh, two);
     const std::vector<WedgeShare> shares = {{0, of_first}, {1, of_second}};
     values.blend(shares, 0);
