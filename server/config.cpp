@@ -139,8 +139,10 @@ std::vector<Setting> make_settings() {
                COPPICE_MEMBER(read.objects)),
         number("attributes", "attributes of a mesh, with those of its morph targets", 1, 1'000'000,
                COPPICE_MEMBER(read.attributes)),
-        number("attribute_bytes", "bytes of an asset's accessors, and of its vertex attributes as floats", 1,
-               huge, COPPICE_MEMBER(read.attribute_bytes)),
+        number("attribute_bytes",
+               "bytes of an asset's accessors, of its attributes as floats, and of what a Draco stream "
+               "decodes to",
+               1, huge, COPPICE_MEMBER(read.attribute_bytes)),
         number("images", "images of an asset", 1, many, COPPICE_MEMBER(read.images)),
         number("zip_entries", "files in a zip", 1, many, COPPICE_MEMBER(read.zip_entries)),
         number("zip_bytes", "bytes of a zip's files, unpacked", 1, huge, COPPICE_MEMBER(read.zip_bytes)),

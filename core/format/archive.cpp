@@ -212,10 +212,12 @@ Bytes write_zip(const std::vector<NamedFile>& files, const Watch& watch) {
     for (const NamedFile& file : files) add_file(zip.get(), file);
     // Closing is what packs.
     zip_register_cancel_callback_with_state(zip.get(), &is_stopped, nullptr, const_cast<Watch*>(&watch));
-    const bool closed = zip_close(zip.get()) == 0;
+    if (zip_close(zip.get()) != 0) {
+        watch.check();
+        fail(ErrorCode::internal, "", fmt::format("zip: {}", zip_strerror(zip.get())));
+    }
+    static_cast<void>(zip.release());  // at once: closed is gone
     watch.check();
-    require(closed, ErrorCode::internal, "", "zip: {}", zip_strerror(zip.get()));
-    static_cast<void>(zip.release());  // closed
     return contents(archive.get());
 }
 

@@ -20,8 +20,8 @@ struct ReadLimits {
     uint32_t accessors = 200'000;  // and as many buffer views
     uint32_t objects = 200'000;    // of all other kinds together, from scenes to the channels of animations
     uint32_t attributes = 256;     // of a mesh, over all its primitives and morph targets
-    uint64_t attribute_bytes =
-        1ULL << 30;  // of all accessors as they are stored, and of all attributes as floats
+    // Of all accessors as they are stored, of all attributes as floats, and of what Draco decodes to.
+    uint64_t attribute_bytes = 1ULL << 30;
     uint32_t images = 512;
     uint32_t zip_entries = 2000;
     uint64_t zip_bytes = 1ULL << 30;  // unpacked

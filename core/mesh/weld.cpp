@@ -4,10 +4,11 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <map>
 #include <random>
-#include <unordered_map>
 
 #include "core/base/watched_loop.h"
+#include "core/mesh/attribute_set.h"
 
 namespace coppice {
 
@@ -101,11 +102,12 @@ void weld_vertices(Mesh& mesh, const Watch& watch) {
 // are only merged when whoever uses them agrees on which attributes exist. Wedges that no triangle uses are
 // class none.
 std::vector<uint32_t> slot_class_of_wedges(const Mesh& mesh) {
-    std::unordered_map<std::vector<bool>, uint32_t> classes;  // by attribute set: the lowest slot
+    // By attribute set: the lowest slot. Not hashed: a file could be made whose sets all have one hash.
+    std::map<std::vector<bool>, uint32_t> classes;
     std::vector<uint32_t> slot_class;
     for (const MaterialSlot& slot : mesh.slots) {
         const auto next = static_cast<uint32_t>(slot_class.size());
-        slot_class.push_back(classes.try_emplace(slot.has_attribute, next).first->second);
+        slot_class.push_back(classes.try_emplace(attribute_set(mesh, slot), next).first->second);
     }
     std::vector<uint32_t> wedge_class(mesh.wedge_count(), none);
     for (size_t corner = 0; corner < mesh.triangles.size(); ++corner) {

@@ -13,9 +13,9 @@ namespace coppice::gltf {
 
 namespace {
 
-// Stops before values are read that would take more memory than there may be: a stream says how many
-// attributes it has, of up to 255 components each, and all are allocated before it is known whether their
-// values are there.
+// Stops before values are read that would take more memory than there may be: an attribute may have 255
+// components, there may be any number of attributes, and values may take no bits of the stream. What its
+// counts alone make the decoder allocate, check_sizes has seen before.
 template <typename Decoder>
 class BoundedDecoder : public Decoder {
   public:
@@ -27,13 +27,19 @@ class BoundedDecoder : public Decoder {
     bool DecodeAllAttributes() override {
         uint64_t stride = 0;
         const draco::PointCloud& points = *Decoder::point_cloud();
-        for (int32_t i = 0; i < points.num_attributes(); ++i)
-            stride += static_cast<uint64_t>(points.attribute(i)->byte_stride());
+        for (int32_t i = 0; i < points.num_attributes(); ++i) stride += decoded_stride(*points.attribute(i));
         too_large_ = stride > 0 && points.num_points() > most_bytes_ / stride;
         return !too_large_ && Decoder::DecodeAllAttributes();
     }
 
   private:
+    // For each point: the value, the integers that it is made of, which stay until all are decoded, and the
+    // value's index.
+    static uint64_t decoded_stride(const draco::PointAttribute& attribute) {
+        return static_cast<uint64_t>(attribute.byte_stride()) +
+               sizeof(int32_t) * (uint64_t{attribute.num_components()} + 1);
+    }
+
     uint64_t most_bytes_;
     bool too_large_ = false;
 };
@@ -45,8 +51,8 @@ std::unique_ptr<draco::Mesh> decode_with(draco::DecoderBuffer& buffer, uint64_t 
     BoundedDecoder<Decoder> decoder(most_bytes);
     const draco::Status status = decoder.Decode(draco::DecoderOptions(), &buffer, mesh.get());
     require(!decoder.is_too_large(), ErrorCode::asset_too_large, where,
-            "{} has attributes of more than {} bytes in its Draco stream (limit attribute_bytes)", where,
-            most_bytes);
+            "{} has attributes in its Draco stream that take more bytes than may be (limit attribute_bytes)",
+            where);
     demand(status.ok(), where, "cannot be decoded: {}", status.error_msg_string());
     return mesh;
 }
@@ -60,15 +66,27 @@ std::unique_ptr<draco::Mesh> decode_mesh(ByteView bytes, DracoMethod method, uin
                : decode_with<draco::MeshSequentialDecoder>(buffer, most_bytes, where);
 }
 
-// What the stream says of itself, before anything is allocated for it.
-DracoMethod check_sizes(ByteView stream, uint64_t vertex_count, uint64_t triangle_limit,
+// What the decoder makes for each set of seams: by corner its vertex and a bit, by vertex four indices. The
+// seams split vertices into as many as the accessors have, where these are right.
+uint64_t bytes_of_seams(const DracoSizes& sizes, uint64_t vertex_count) {
+    constexpr uint64_t for_triangle = 3 * sizeof(uint32_t) + 1, for_vertex = 4 * sizeof(uint32_t);
+    return sizes.attribute_data * (sizes.triangles * for_triangle + vertex_count * for_vertex);
+}
+
+// What the stream says of itself, before anything is allocated for it. How much its attributes take is only
+// known once they are met: BoundedDecoder.
+DracoMethod check_sizes(ByteView stream, uint64_t vertex_count, const DracoLimits& limits,
                         const Pointer& where) {
     const auto sizes = draco_sizes(stream);
     demand(sizes.has_value(), where, "is not a Draco stream of triangles");
-    require(sizes->triangles <= triangle_limit, ErrorCode::asset_too_large, where,
+    require(sizes->triangles <= limits.triangles, ErrorCode::asset_too_large, where,
             "{} has more triangles than are read (limit triangles)", where);
     demand(sizes->vertices <= vertex_count, where,
            "has {} vertices in its accessors, but the Draco stream has {}", vertex_count, sizes->vertices);
+    require(bytes_of_seams(*sizes, vertex_count) <= limits.attribute_bytes, ErrorCode::asset_too_large, where,
+            "{} has attributes with seams in its Draco stream that take more bytes than may be (limit "
+            "attribute_bytes)",
+            where);
     return sizes->method;
 }
 
@@ -140,8 +158,7 @@ DracoPrimitive decode_draco(const Parsed& parsed, const Json& primitive, const D
     demand(unsigned_at(primitive, "mode", 4) >= 4, where, "is on a primitive of points or lines");
     const ByteView stream = parsed.views[*index_at(json, "bufferView")];
     const auto any_attribute = primitive["attributes"].begin()->get<uint32_t>();
-    const DracoMethod method =
-        check_sizes(stream, parsed.accessors[any_attribute].count, limits.triangles, where);
+    const DracoMethod method = check_sizes(stream, parsed.accessors[any_attribute].count, limits, where);
     const auto mesh = decode_mesh(stream, method, limits.attribute_bytes, where);
     DracoPrimitive out;
     out.vertex_count = mesh->num_points();

@@ -33,13 +33,25 @@ bool read_edgebreaker_sizes(draco::DecoderBuffer& buffer, DracoSizes& sizes) {
     if (buffer.bitstream_version() < version_of(2, 2) && !read_count(buffer, varint_since, split_vertices))
         return false;
     return read_count(buffer, varint_since, sizes.vertices) &&
-           read_count(buffer, varint_since, sizes.triangles);
+           read_count(buffer, varint_since, sizes.triangles) && buffer.Decode(&sizes.attribute_data);
 }
 
 bool read_sequential_sizes(draco::DecoderBuffer& buffer, DracoSizes& sizes) {
     constexpr uint16_t varint_since = version_of(2, 2);
     return read_count(buffer, varint_since, sizes.triangles) &&
            read_count(buffer, varint_since, sizes.vertices);
+}
+
+// The decoders themselves do not look at it.
+std::optional<DracoMethod> method_of(const draco::DracoHeader& header) {
+    switch (header.encoder_method) {
+        case draco::MESH_SEQUENTIAL_ENCODING:
+            return DracoMethod::sequential;
+        case draco::MESH_EDGEBREAKER_ENCODING:
+            return DracoMethod::edgebreaker;
+        default:
+            return std::nullopt;
+    }
 }
 
 }  // namespace
@@ -49,11 +61,11 @@ std::optional<DracoSizes> draco_sizes(ByteView stream) {
     buffer.Init(reinterpret_cast<const char*>(stream.data()), stream.size());
     draco::DracoHeader header;
     if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) return std::nullopt;
-    if (header.encoder_type != draco::TRIANGULAR_MESH) return std::nullopt;
+    const auto method = method_of(header);
+    if (header.encoder_type != draco::TRIANGULAR_MESH || !method) return std::nullopt;
     buffer.set_bitstream_version(version_of(header.version_major, header.version_minor));
     if (!skip_metadata(buffer, header)) return std::nullopt;
-    DracoSizes sizes;
-    if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) sizes.method = DracoMethod::edgebreaker;
+    DracoSizes sizes{.method = *method};
     const bool is_read = sizes.method == DracoMethod::edgebreaker ? read_edgebreaker_sizes(buffer, sizes)
                                                                   : read_sequential_sizes(buffer, sizes);
     return is_read ? std::optional(sizes) : std::nullopt;

@@ -13,7 +13,8 @@ enum class DracoMethod { sequential, edgebreaker };
 struct DracoSizes {
     DracoMethod method = DracoMethod::sequential;
     uint32_t triangles = 0;
-    uint32_t vertices = 0;  // attributes with seams may still split them
+    uint32_t vertices = 0;       // attributes with seams may still split them
+    uint8_t attribute_data = 0;  // edgebreaker: tables of attributes that have seams of their own
 };
 
 // Of a stream of triangles; none for anything else. The decoder allocates for so many before it finds out

@@ -59,7 +59,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     bool key(std::string& name) override {
         auto& object = open_.back()->get_ref<Json::object_t&>();
         const auto [member, is_new] = object.try_emplace(std::move(name));
-        if (!is_new)
+        if (!is_new)  // not require(): it would copy the name of every key
             fail(ErrorCode::asset_malformed, "",
                  fmt::format("the JSON has the key '{}' twice in one object", member->first.substr(0, 100)));
         member_ = &member->second;

@@ -1,10 +1,10 @@
 #include "core/format/gltf/read_mesh.h"
-#include "core/format/clean_triangles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "core/format/clean_triangles.h"
 #include "core/format/gltf/legal_values.h"
 #include "core/format/gltf/read_primitive.h"
 #include "core/format/gltf/semantics.h"
@@ -192,7 +192,6 @@ class MeshReader {
     void clean() {
         make_legal(mesh_);
         weld(mesh_, watch_);
-        drop_unused(mesh_, watch_);
         clean_triangles(mesh_, fmt::format("mesh {}", index_), pointer("meshes", index_).text(),
                         parsed_.warnings, watch_);
     }

@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "core/mesh/attribute_set.h"
+
 namespace coppice::gltf {
 
 namespace {
@@ -13,9 +15,7 @@ std::vector<std::vector<uint32_t>> slots_with_the_same_attributes(const Mesh& me
     std::map<std::vector<bool>, size_t> kinds;
     std::vector<std::vector<uint32_t>> slots;
     for (uint32_t slot = 0; slot < mesh.slots.size(); ++slot) {
-        std::vector<bool> has = mesh.slots[slot].has_attribute;
-        if (has.empty()) has.assign(mesh.attributes.size(), true);
-        const auto [kind, is_new] = kinds.try_emplace(std::move(has), slots.size());
+        const auto [kind, is_new] = kinds.try_emplace(attribute_set(mesh, mesh.slots[slot]), slots.size());
         if (is_new) slots.emplace_back();
         slots[kind->second].push_back(slot);
     }

@@ -1,7 +1,7 @@
 #include "core/format/iobj/placement.h"
 
+#include <map>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "core/base/error.h"
@@ -14,7 +14,7 @@ using InstancesOfObject = std::vector<std::vector<const InstanceDirective*>>;
 
 InstancesOfObject instances_by_object(const ObjFile& file) {
     InstancesOfObject of_object(file.objects.size());
-    std::unordered_map<std::string, size_t> object_numbers;
+    std::map<std::string, size_t> object_numbers;  // not hashed: the file chooses the names
     for (size_t i = 0; i < file.objects.size(); ++i) object_numbers.emplace(file.objects[i], i);
     for (const InstanceDirective& instance : file.instances) {
         const auto at = object_numbers.find(instance.object);

@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include <unordered_map>
-#include <unordered_set>
+#include <map>
+#include <set>
 
 namespace coppice {
 
@@ -20,9 +20,10 @@ std::string line_name(std::string_view name, std::string_view fallback) {
 
 std::vector<std::string> unique_line_names(std::span<const std::string> names, std::string_view fallback) {
     std::vector<std::string> out;
-    std::unordered_set<std::string> taken;
+    // Not hashed: a file could be made whose names all have one hash.
+    std::set<std::string> taken;
     for (const std::string& name : names) taken.insert(line_name(name, fallback));
-    std::unordered_map<std::string, int> uses;
+    std::map<std::string, int> uses;
     for (const std::string& name : names) {
         std::string unique = line_name(name, fallback);
         int& use = uses[unique];

@@ -1,7 +1,7 @@
 #include "core/format/obj/obj_file.h"
 
 #include <cmath>
-#include <unordered_map>
+#include <map>
 
 #include "core/format/warning_tally.h"
 
@@ -256,7 +256,8 @@ class ObjParser {
     const Watch& watch_;
     ObjFile file_;
     WarningTally tally_;
-    std::unordered_map<std::string, uint32_t> object_names_, material_numbers_;
+    // Not hashed: a file could be made whose names all have one hash.
+    std::map<std::string, uint32_t> object_names_, material_numbers_;
     uint32_t material_ = obj_none;
     bool run_ended_ = true;
     uint64_t triangles_ = 0;

@@ -5,9 +5,11 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <unordered_map>
+#include <tuple>
 #include <utility>
 #include <vector>
+
+#include "core/base/watched_loop.h"
 
 namespace coppice {
 
@@ -50,34 +52,6 @@ void put_flipped(std::string& out, float t) {
     put_float(out, static_cast<float>(v));
 }
 
-// Numbers values in the order of their first use.
-template <size_t components>
-class Distinct {
-  public:
-    using Value = std::array<float, components>;
-
-    explicit Distinct(size_t expected) { numbers_.reserve(expected); }
-
-    uint32_t number(Value value) {
-        for (float& v : value) v += 0.0F;  // -0 is 0
-        const auto [at, is_new] = numbers_.emplace(value, static_cast<uint32_t>(values_.size()));
-        if (is_new) values_.push_back(value);
-        return at->second;
-    }
-    const std::vector<Value>& values() const { return values_; }
-
-  private:
-    struct Hash {
-        size_t operator()(const Value& value) const {
-            uint64_t hash = 0;
-            for (const float v : value) hash = (hash ^ std::bit_cast<uint32_t>(v)) * 0x9e3779b97f4a7c15U;
-            return hash ^ hash >> 32;
-        }
-    };
-    std::unordered_map<Value, uint32_t, Hash> numbers_;
-    std::vector<Value> values_;
-};
-
 template <size_t components>
 std::array<float, components> value_at(const Attribute& attribute, uint32_t wedge) {
     std::array<float, components> value{};
@@ -92,14 +66,48 @@ struct Numbering {
     std::vector<uint32_t> vertex, uv, normal;  // by wedge, from 0; none where unused or absent
 };
 
-template <size_t components, typename ValueOf>
-Distinct<components> number_wedges(const Mesh& mesh, std::vector<uint32_t>& numbers, ValueOf value_of) {
-    Distinct<components> distinct(mesh.wedge_count());
+// Numbers the different values of the wedges that triangles use in the order of their first use, and gives
+// these values. Equals are found by sorting: a file could be made whose values all have one hash.
+template <size_t components>
+std::vector<std::array<float, components>> number_values(const Mesh& mesh, const Attribute& attribute,
+                                                         std::vector<uint32_t>& numbers, const Watch& watch) {
+    using Bits = std::array<uint32_t, components>;
+    struct Use {
+        Bits value{};
+        uint32_t wedge = 0;
+        uint32_t order = 0;  // of its first use
+    };
+    std::vector<Use> uses;
     numbers.assign(mesh.wedge_count(), none);
-    for (const uint32_t wedge : mesh.triangles) {
-        if (numbers[wedge] == none) numbers[wedge] = distinct.number(value_of(wedge));
-    }
-    return distinct;
+    watched_loop(mesh.triangles.size(), watch, [&](size_t corner) {
+        const uint32_t wedge = mesh.triangles[corner];
+        if (numbers[wedge] != none) return;
+        numbers[wedge] = static_cast<uint32_t>(uses.size());
+        auto value = value_at<components>(attribute, wedge);
+        for (float& v : value) v += 0.0F;  // -0 is 0
+        uses.push_back({std::bit_cast<Bits>(value), wedge, numbers[wedge]});
+    });
+    std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
+        return std::tie(a.value, a.order) < std::tie(b.value, b.order);
+    });
+    std::vector<const Use*> first_of(uses.size());  // by order: the first use of the same value
+    watched_loop(uses.size(), watch, [&](size_t i) {
+        const bool is_equal = i > 0 && uses[i].value == uses[i - 1].value;
+        first_of[uses[i].order] = is_equal ? first_of[uses[i - 1].order] : &uses[i];
+    });
+    std::vector<std::array<float, components>> values;
+    std::vector<uint32_t> number(uses.size());  // by order
+    watched_loop(uses.size(), watch, [&](size_t order) {
+        const Use& first = *first_of[order];
+        if (first.order != order) {
+            number[order] = number[first.order];
+            return;
+        }
+        number[order] = static_cast<uint32_t>(values.size());
+        values.push_back(std::bit_cast<std::array<float, components>>(first.value));
+    });
+    for (const Use& use : uses) numbers[use.wedge] = number[use.order];
+    return values;
 }
 
 // Vertices in the mesh's order, those that triangles use. A vertex whose wedges differ in colour is written
@@ -137,29 +145,30 @@ void write_vertices(std::string& out, const Mesh& mesh, std::vector<uint32_t>& n
     written += count;
 }
 
-void write_uvs(std::string& out, const Mesh& mesh, std::vector<uint32_t>& numbers, uint64_t& written) {
+void write_uvs(std::string& out, const Mesh& mesh, std::vector<uint32_t>& numbers, uint64_t& written,
+               const Watch& watch) {
     const Attribute* uvs = mesh.find_attribute("TEXCOORD_0");
     if (!uvs) return;
-    const auto distinct = number_wedges<2>(mesh, numbers, [&](uint32_t w) { return value_at<2>(*uvs, w); });
-    for (const auto& uv : distinct.values()) {
+    const auto values = number_values<2>(mesh, *uvs, numbers, watch);
+    for (const auto& uv : values) {
         put_float(out += "vt ", uv[0]);
         put_flipped(out += ' ', uv[1]);
         out += '\n';
     }
-    written += distinct.values().size();
+    written += values.size();
 }
 
-void write_normals(std::string& out, const Mesh& mesh, std::vector<uint32_t>& numbers, uint64_t& written) {
+void write_normals(std::string& out, const Mesh& mesh, std::vector<uint32_t>& numbers, uint64_t& written,
+                   const Watch& watch) {
     const Attribute* normals = mesh.find_attribute("NORMAL");
     if (!normals) return;
-    const auto distinct =
-        number_wedges<3>(mesh, numbers, [&](uint32_t w) { return value_at<3>(*normals, w); });
-    for (const auto& n : distinct.values()) {
+    const auto values = number_values<3>(mesh, *normals, numbers, watch);
+    for (const auto& n : values) {
         out += "vn";
         for (const float value : n) put_float(out += ' ', value);
         out += '\n';
     }
-    written += distinct.values().size();
+    written += values.size();
 }
 
 bool slot_has(const Mesh& mesh, const MaterialSlot& slot, std::string_view attribute) {
@@ -179,13 +188,13 @@ void ObjectWriter::use_material(const MaterialSlot& slot) {
     material_ = wanted;
 }
 
-void ObjectWriter::write(const Mesh& mesh, std::string_view name) {
+void ObjectWriter::write(const Mesh& mesh, std::string_view name, const Watch& watch) {
     const uint64_t first_vertex = vertices_ + 1, first_uv = uvs_ + 1, first_normal = normals_ + 1;
     (out_ += "o ").append(name) += '\n';
     Numbering numbers;
     write_vertices(out_, mesh, numbers.vertex, vertices_);
-    write_uvs(out_, mesh, numbers.uv, uvs_);
-    write_normals(out_, mesh, numbers.normal, normals_);
+    write_uvs(out_, mesh, numbers.uv, uvs_, watch);
+    write_normals(out_, mesh, numbers.normal, normals_, watch);
     std::vector<std::vector<uint32_t>> of_slot(mesh.slots.size());
     for (uint32_t t = 0; t < mesh.triangle_count(); ++t) of_slot[mesh.triangle_slot[t]].push_back(t);
     for (size_t s = 0; s < mesh.slots.size(); ++s) {

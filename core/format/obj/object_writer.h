@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/watch.h"
 #include "core/mesh/mesh.h"
 
 namespace coppice {
@@ -18,8 +19,8 @@ class ObjectWriter {
         : out_(out), material_names_(material_names) {}
 
     // Numbers are the shortest that read back to the same float. Unused vertices and equal attributes are
-    // left out.
-    void write(const Mesh& mesh, std::string_view name);
+    // left out. Throws when the watch is stopped.
+    void write(const Mesh& mesh, std::string_view name, const Watch& watch);
 
   private:
     void use_material(const MaterialSlot& slot);

@@ -55,11 +55,11 @@ ObjFiles write_obj(const Scene& scene, const WriteOptions& options, const Watch&
         const size_t before = text.size();
         const Mesh& mesh = scene.meshes[placed[i].mesh];
         if (placed[i].world == Transform{}) {
-            writer.write(mesh, names[i]);
+            writer.write(mesh, names[i], watch);
         } else {
             Mesh baked = mesh;
             transform_mesh(placed[i].world, baked);
-            writer.write(baked, names[i]);
+            writer.write(baked, names[i], watch);
         }
         mesh_bytes[placed[i].mesh] += text.size() - before;
     }
@@ -96,7 +96,7 @@ ObjFiles write_iobj(const Scene& scene, const WriteOptions& options, const Watch
             continue;
         }
         const size_t before = text.size();
-        writer.write(scene.meshes[i], names[i]);
+        writer.write(scene.meshes[i], names[i], watch);
         mesh_bytes[i] = text.size() - before;
         const InstanceDirective& first = of_mesh[i].front();
         if (of_mesh[i].size() == 1 && first.name == names[i] && first.placement == Transform{}) continue;

@@ -339,7 +339,7 @@ std::vector<uint8_t> draco_header(bool edgebreaker) {
 TEST(GltfRefuse, a_draco_stream_that_claims_more_triangles_than_the_limit) {
     std::vector<uint8_t> edgebreaker = draco_header(true);
     edgebreaker.insert(edgebreaker.end(),
-                       {0, 4, 0xFF, 0xFF, 0xFF, 0x7F});  // 4 vertices, 268 million triangles
+                       {0, 4, 0xFF, 0xFF, 0xFF, 0x7F, 0});  // 4 vertices, 268 million triangles
     EXPECT_THAT(error_of_draco(edgebreaker), HasSubstr("limit triangles"));
     std::vector<uint8_t> sequential = draco_header(false);
     sequential.insert(sequential.end(), {0xFF, 0xFF, 0xFF, 0x7F, 4});
@@ -354,9 +354,34 @@ TEST(GltfRefuse, a_draco_stream_whose_attributes_would_take_more_than_the_limit)
     EXPECT_THAT(error_of_draco(stream, {.attribute_bytes = 6000}), HasSubstr("limit attribute_bytes"));
 }
 
+TEST(GltfRefuse, a_draco_stream_of_many_small_attributes_that_take_more_than_the_limit_while_it_is_decoded) {
+    std::vector<uint8_t> stream = draco_header(false);
+    constexpr uint8_t attributes = 100;
+    stream.insert(stream.end(), {1, 3, 1, 0, 1, 2});  // one triangle of three vertices, stored as it is
+    stream.insert(stream.end(), {1, attributes});
+    for (uint8_t id = 0; id < attributes; ++id) stream.insert(stream.end(), {4, 2, 1, 0, id});  // one byte
+    stream.insert(stream.end(), attributes, 1);  // as integers, which are decoded in 32 bits
+    EXPECT_THAT(error_of_draco(stream), HasSubstr("cannot be decoded"));
+    EXPECT_THAT(error_of_draco(stream, {.attribute_bytes = 2000}), HasSubstr("limit attribute_bytes"));
+}
+
+TEST(GltfRefuse, a_draco_stream_whose_seams_would_take_more_than_the_limit) {
+    std::vector<uint8_t> stream = draco_header(true);
+    stream.insert(stream.end(), {0, 4, 2, 255});  // 4 vertices, 2 triangles, 255 tables of seams
+    EXPECT_THAT(error_of_draco(stream), HasSubstr("cannot be decoded"));
+    EXPECT_THAT(error_of_draco(stream, {.attribute_bytes = 20000}), HasSubstr("limit attribute_bytes"));
+}
+
+TEST(GltfRefuse, a_draco_stream_of_a_method_that_is_unknown) {
+    std::vector<uint8_t> stream = draco_header(false);
+    stream[8] = 77;
+    stream.insert(stream.end(), {1, 3, 1, 0, 1, 2});
+    EXPECT_THAT(error_of_draco(stream), HasSubstr("is not a Draco stream of triangles"));
+}
+
 TEST(GltfRefuse, a_draco_stream_that_claims_more_vertices_than_its_accessors) {
     std::vector<uint8_t> edgebreaker = draco_header(true);
-    edgebreaker.insert(edgebreaker.end(), {0, 0xFF, 0xFF, 0xFF, 0x7F, 2});
+    edgebreaker.insert(edgebreaker.end(), {0, 0xFF, 0xFF, 0xFF, 0x7F, 2, 0});
     EXPECT_THAT(error_of_draco(edgebreaker), HasSubstr("4 vertices in its accessors"));
     std::vector<uint8_t> sequential = draco_header(false);
     sequential.insert(sequential.end(), {2, 0xFF, 0xFF, 0xFF, 0x7F});

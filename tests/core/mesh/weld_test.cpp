@@ -86,6 +86,15 @@ TEST(Weld, keeps_wedges_apart_whose_slots_have_other_attributes) {
         << "zeros that are values and zeros that stand for nothing are not the same";
 }
 
+TEST(Weld, merges_wedges_of_slots_that_have_all_attributes_however_they_say_so) {
+    Mesh mesh = unindexed_square();
+    mesh.attributes = {{.name = "TEXCOORD_0", .components = 2, .values = std::vector<float>(12, 0)}};
+    mesh.slots = {{}, {.has_attribute = {true}}};
+    mesh.triangle_slot = {0, 1};
+    weld(mesh);
+    EXPECT_EQ(mesh.wedge_count(), 4);
+}
+
 TEST(DropUnused, leaves_only_what_triangles_use) {
     Mesh mesh = unindexed_square();
     mesh.attributes = {{.name = "COLOR_0", .components = 1, .values = {0, 1, 2, 3, 4, 5}}};
