@@ -2,9 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include <atomic>
-#include <chrono>
-#include <thread>
+#include <stop_token>
 
 #include "core/base/error.h"
 #include "core/sample/sample.h"
@@ -43,23 +41,24 @@ TEST(SimplifyMeshes, tells_a_progress_that_never_goes_back_and_ends_at_one) {
     EXPECT_EQ(told.back(), 1);
 }
 
-TEST(SimplifyMeshes, stops_within_50_ms_of_being_asked_to) {
+// How many milliseconds that is, depends on the machine: a step of the work does not.
+TEST(SimplifyMeshes, stops_at_the_next_of_many_steps_once_asked_to) {
     const Scene scene = make_sample("bunny13", {.triangles = 100'000});
     std::stop_source source;
-    std::chrono::steady_clock::time_point asked;
+    std::vector<double> told;
     Watch watch = {.stop = source.get_token()};
     watch.progress = [&](double fraction) {
-        if (fraction < 0.2 || source.stop_requested()) return;
-        asked = std::chrono::steady_clock::now();
-        source.request_stop();
+        told.push_back(fraction);
+        if (told.size() == 10) source.request_stop();
     };
     try {
         run(scene, 2, watch);
         FAIL() << "was not stopped";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::job_cancelled);
-        EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::milliseconds(50));
     }
+    EXPECT_EQ(told.size(), 10U);
+    EXPECT_LT(told.back(), 0.3);
 }
 
 TEST(SimplifyMeshes, starts_nothing_once_stopped) {
