@@ -1,8 +1,5 @@
 // What becomes of a job, as its client sees it.
-#include <unistd.h>
-
-#include <fstream>
-
+#include "tests/server/allocated_bytes.h"
 #include "tests/server/service_fixture.h"
 #include "tests/server/test_scenes.h"
 
@@ -123,22 +120,18 @@ TEST_F(Jobs, have_reports_that_stay_on_disk) {
     constexpr size_t report_bytes = 4 << 20, jobs = 40;
     const std::string report = "{\"map\":\"" + std::string(report_bytes, 'x') + "\"}";
     Parts parts;
-    parts.work = [&](const JobRecord&, BlobStore& blobs, const Watch&) { return result_of(blobs, report); };
-    start(std::move(parts));
-    const auto resident_bytes = [] {
-        size_t all = 0;
-        size_t resident = 0;
-        std::ifstream("/proc/self/statm") >> all >> resident;
-        return resident * static_cast<size_t>(::sysconf(_SC_PAGESIZE));
+    parts.work = [report](const JobRecord&, BlobStore& blobs, const Watch&) {
+        return result_of(blobs, report);
     };
-    const size_t before = resident_bytes();
+    start(std::move(parts));
+    const size_t before = allocated_bytes();
     std::string job;
     for (size_t i = 0; i < jobs; ++i) job = submit();
     wait_for_status(job, "succeeded");
     const Answer list = get("/v1/jobs?limit=1000&status=succeeded");
     EXPECT_EQ(list.body.find("\"report\":{"), std::string::npos);
     EXPECT_THAT(list.body, HasSubstr(job.substr(9)));
-    EXPECT_LT(resident_bytes(), before + 10 * report_bytes);  // in memory they would be 40 times that, or 80
+    EXPECT_LT(allocated_bytes(), before + 10 * report_bytes);  // in memory they would be 40 times that, or 80
 
     const Answer answer = get(job);
     EXPECT_EQ(answer.header("content-type"), "application/json");
