@@ -1,9 +1,10 @@
 // How long simplification algorithms take, on one thread, and what they leave. Processor time, which other
 // work on the machine disturbs less.
 //
-//   build/release/bench/bench_simplify_family [MESH.obj [RATIO [ID ...]]]
+//   build/release/bench/bench_simplify_family MESH.obj [RATIO [ID ...]]
+//   build/release/bench/bench_simplify_family growth [ID ...]
 //
-// Without a mesh: blobs of 10 k to 4 M triangles at ratio 0.5, with the exponent of the growth.
+// growth: blobs of 10 k to 4 M triangles at ratio 0.5, with the exponent of the growth.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -43,11 +44,15 @@ Timed median_run(const Algorithm& a, const Mesh& mesh, double ratio, int runs) {
     return result;
 }
 
+bool is_asked_for(const Algorithm& a, const std::vector<std::string>& ids) {
+    return ids.empty() || std::find(ids.begin(), ids.end(), a.id) != ids.end();
+}
+
 void print_mesh(const Mesh& mesh, double ratio, const std::vector<std::string>& ids) {
     fmt::print("{} triangles, ratio {}, one thread, medians of 9 runs.\n\n", mesh.triangle_count(), ratio);
     fmt::print("| algorithm | ms | triangles | threshold | stopped by |\n|---|---:|---:|---:|---|\n");
     for (const Algorithm& a : algorithms()) {
-        if (!ids.empty() && std::find(ids.begin(), ids.end(), a.id) == ids.end()) continue;
+        if (!is_asked_for(a, ids)) continue;
         const Timed t = median_run(a, mesh, ratio, 9);
         fmt::print("| {} | {:.1f} | {} | {:.4g} | {} |\n", a.id, t.milliseconds,
                    t.simplified.mesh.triangle_count(), t.simplified.threshold_used.value_or(0),
@@ -55,12 +60,13 @@ void print_mesh(const Mesh& mesh, double ratio, const std::vector<std::string>& 
     }
 }
 
-void print_growth() {
+void print_growth(const std::vector<std::string>& ids) {
     const std::vector<uint32_t> segments = {86, 273, 863, 1733};
     fmt::print("| algorithm |");
     for (const uint32_t s : segments) fmt::print(" {} triangles, ms |", 2 * s * (2 * s / 3 - 1));
     fmt::print(" exponent |\n|---|---:|---:|---:|---:|---:|\n");
     for (const Algorithm& a : algorithms()) {
+        if (!is_asked_for(a, ids)) continue;
         fmt::print("| {} |", a.id);
         std::vector<double> times, sizes;
         for (const uint32_t s : segments) {
@@ -79,13 +85,14 @@ void print_growth() {
 
 int main(int count, char** words) {
     using namespace coppice;
-    if (count < 2) {
-        print_growth();
+    const std::vector<std::string> arguments(words + 1, words + count);
+    if (arguments.empty() || arguments[0] == "growth") {
+        print_growth({arguments.begin() + std::min<std::ptrdiff_t>(1, count - 1), arguments.end()});
         return 0;
     }
-    const test::UploadedAsset asset{std::filesystem::path(words[1])};
+    const test::UploadedAsset asset{std::filesystem::path(arguments[0])};
     const Scene scene = read_asset(asset.upload(), {}, Watch{}).scene;
-    print_mesh(scene.meshes.at(0), count > 2 ? std::atof(words[2]) : 0.5,
-               {words + std::min(count, 3), words + count});
+    const double ratio = count > 2 ? std::atof(arguments[1].c_str()) : 0.5;
+    print_mesh(scene.meshes.at(0), ratio, {arguments.begin() + std::min(2, count - 1), arguments.end()});
     return 0;
 }

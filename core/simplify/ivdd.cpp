@@ -19,8 +19,7 @@ std::span<const Parameter> parameters() {
     static constexpr std::array<std::string_view, 2> modes = {"once", "sequential"};
     static const std::array<Parameter, 3> list = {{
         length_parameter("distance",
-                         "vertices of a triangle that are nearer are merged; found by search unless given "
-                         "(the paper's is 0.85)"),
+                         "vertices of a triangle that are nearer are merged; found by search unless given"),
         {.id = "mode",
          .title = "once: a vertex is merged once in a round; sequential: as often as triangles say, without "
                   "any guard of the surface",
