@@ -195,8 +195,9 @@ Simplified simplify(const Mesh& source, std::span<const Transform> /*instances*/
 Algorithm openmesh() {
     return {.id = "openmesh",
             .title = "OpenMesh's quadric decimater, as a baseline",
-            .citation = "M. Botsch, S. Steinberg, S. Bischoff, L. Kobbelt: OpenMesh: a generic and efficient "
-                        "polygon mesh data structure. OpenSG Symposium 2002",
+            .citation =
+                "M. Botsch, S. Steinberg, S. Bischoff, L. Kobbelt: OpenMesh: a generic and efficient "
+                "polygon mesh data structure. OpenSG Symposium 2002",
             .parameters = {},
             .keeps_values = true,
             .simplify = simplify};

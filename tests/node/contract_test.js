@@ -174,7 +174,11 @@ test('a comparison tells how far one asset is from another', async () => {
     const { body, answer } = await ask('post', '/v1/compare', 200, both);
     assert.equal(body.measured, 'meshes');
     assert.ok(body.surface.surface_distance.symmetric.largest_diagonal_fraction < 0.05);
-    assert.equal(body.surface.flipped_triangles, 0);
+    const { body: same } = await ask(
+        'post', '/v1/compare', 200, form({ name: 'candidate', filename: 'b.glb', bytes: scene }),
+    );
+    assert.equal(same.surface.flipped_triangles, 0);
+    assert.ok(same.surface.surface_distance.symmetric.largest_diagonal_fraction < 1e-9);
     assert.equal(body.meshes.length, body.reference.meshes);
     const { body: report } = await ask('get', '/v1/jobs/{id}/report', 200, { id: id_of(answer) });
     assert.deepEqual(report, body);
