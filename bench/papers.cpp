@@ -49,7 +49,7 @@ struct Model {
 };
 
 Model model(const std::string& file, uint32_t triangles) {
-    if (test::asset_folder() && std::filesystem::exists(*test::asset_folder() / file)) {
+    if (test::asset_folder() && std::filesystem::is_regular_file(*test::asset_folder() / file)) {
         const test::UploadedAsset asset = test::load_asset(file);
         return {file, read_asset(asset.upload(), {}, {}).scene.meshes.front()};
     }
