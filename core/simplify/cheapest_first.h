@@ -14,12 +14,12 @@
 namespace coppice {
 
 // An edge as one of its ends, its owner, queues with it. Ordered by error, then by the other end.
-struct EdgeCandidate {
+struct Candidate {
     uint32_t other = no_index;  // none
     double error = std::numeric_limits<double>::infinity();
 
     bool exists() const { return other != no_index; }
-    friend bool operator<(const EdgeCandidate& a, const EdgeCandidate& b) {
+    friend bool operator<(const Candidate& a, const Candidate& b) {
         return a.error != b.error ? a.error < b.error : a.other < b.other;
     }
 };
@@ -31,12 +31,14 @@ struct Collapsed {
 // Each vertex queues with the cheapest edge that it owns. Where that is refused it goes on to the next, until
 // its surroundings change.
 //
-// Work is what collapses (EdgeCollapse):
-//   mesh(), done(), fraction(), forget_refusals()
-//   EdgeCandidate next_candidate(owner, after): its cheapest edge that comes after the given candidate, if
-//   one is given optional<double> cost(owner, other): of one edge; none where that is not allowed, or owned
-//   by the other optional<Collapsed> try_collapse(owner, other)
-//   void ring(vertex, vector& out): its neighbours, each once
+// Work is what collapses (EdgeCollapse) and has
+//   - mesh(), done(), fraction(), forget_refusals();
+//   - Candidate next_candidate(owner, after): its cheapest edge that comes after the given candidate, if one
+//   is given;
+//   - optional<double> cost(owner, other): of one edge; none where that is not allowed, or owned by the
+//   other;
+//   - optional<Collapsed> try_collapse(owner, other);
+//   - void ring(vertex, vector& out): its neighbours, each once.
 template <typename Work>
 class CheapestFirst {
   public:
@@ -77,7 +79,7 @@ class CheapestFirst {
     // True when it collapsed; else the edge is out of the queue until its surroundings change.
     bool try_cheapest() {
         const uint32_t owner = heap_.top();
-        const EdgeCandidate candidate = candidates_[owner];
+        const Candidate candidate = candidates_[owner];
         if (is_hub(candidate.other) && has_become_dearer(owner, candidate)) return false;
         const std::optional<Collapsed> collapsed = collapse(owner, candidate.other);
         if (!collapsed) {
@@ -112,26 +114,26 @@ class CheapestFirst {
 
     // After a collapse beside this vertex: only the way to the vertex that stayed has another price now.
     void rank_again(uint32_t vertex, uint32_t removed, uint32_t kept) {
-        const EdgeCandidate& best = candidates_[vertex];
+        const Candidate& best = candidates_[vertex];
         if (skipped_[vertex] || !best.exists() || best.other == kept || best.other == removed) {
             queue(vertex, work_.next_candidate(vertex, {}));
             return;
         }
         const std::optional<double> error = work_.cost(vertex, kept);
-        if (error && EdgeCandidate{kept, *error} < best) queue(vertex, {kept, *error});
+        if (error && Candidate{kept, *error} < best) queue(vertex, {kept, *error});
     }
 
     bool is_hub(uint32_t vertex) const { return mesh_.valence(vertex) > largest_removable_valence; }
 
-    bool has_become_dearer(uint32_t owner, const EdgeCandidate& candidate) {
+    bool has_become_dearer(uint32_t owner, const Candidate& candidate) {
         const std::optional<double> now = work_.cost(owner, candidate.other);
         if (now && *now <= candidate.error) return false;
-        queue(owner, now ? EdgeCandidate{candidate.other, *now} : work_.next_candidate(owner, candidate));
+        queue(owner, now ? Candidate{candidate.other, *now} : work_.next_candidate(owner, candidate));
         skipped_[owner] = true;
         return true;
     }
 
-    void queue(uint32_t vertex, const EdgeCandidate& candidate) {
+    void queue(uint32_t vertex, const Candidate& candidate) {
         candidates_[vertex] = candidate;
         skipped_[vertex] = false;
         if (candidate.exists()) {
@@ -145,8 +147,8 @@ class CheapestFirst {
     const CollapseMesh& mesh_;
     const Watch& watch_;
     IndexedHeap heap_;
-    std::vector<EdgeCandidate> candidates_;  // per vertex: what it is queued with
-    std::vector<bool> skipped_;              // per vertex: whether cheaper candidates were refused
+    std::vector<Candidate> candidates_;  // per vertex: what it is queued with
+    std::vector<bool> skipped_;          // per vertex: whether cheaper candidates were refused
     std::vector<uint32_t> ring_;
 };
 

@@ -4,6 +4,16 @@
 
 namespace coppice {
 
+namespace {
+
+Features features_for(const CollapseMesh& mesh, const CollapseOptions& options, const Watch& watch) {
+    Features features = find_features(mesh, watch);
+    if (options.lock_sharp_borders) lock_sharp_borders(mesh, features);
+    return features;
+}
+
+}  // namespace
+
 EdgeCollapse::EdgeCollapse(const Mesh& source, const Target& target, const CollapseOptions& options,
                            const MakeError& make_error, const Watch& watch)
     : source_(source),
@@ -11,7 +21,7 @@ EdgeCollapse::EdgeCollapse(const Mesh& source, const Target& target, const Colla
       has_values_(!source.attributes.empty() || !source.morph_targets.empty()),
       options_(options),
       mesh_(source, watch),
-      features_(find_features(mesh_, watch)),
+      features_(features_for(mesh_, options, watch)),
       clouds_(mesh_, source, options.scales, watch),
       projection_(mesh_),
       error_(make_error({mesh_, features_.edges, clouds_, projection_})),
@@ -44,36 +54,37 @@ bool EdgeCollapse::allowed(uint32_t removed, uint32_t kept, bool ring_gathered) 
 }
 
 std::optional<EdgeCollapse::Merge> EdgeCollapse::place(uint32_t removed, uint32_t kept, Freedom freedom) {
-    if (!wedge_map_.find(removed, kept)) return {};
-    const Placed placed = error_->place(removed, kept, freedom, wedge_map_.wedges());
-    return Merge{removed, kept, placed, !(placed.at == mesh_.position(kept))};
+    if (!wedge_map_.find(removed, kept)) {
+        refusals_.add(Refusal::locked);
+        return {};
+    }
+    const std::optional<Placed> placed = error_->place(removed, kept, freedom, wedge_map_.wedges());
+    if (!placed) {
+        refusals_.add_beyond_threshold();
+        return {};
+    }
+    return Merge{removed, kept, *placed, !(placed->at == mesh_.position(kept))};
 }
 
 // around_ holds the owner's ring, if ring_gathered.
 std::optional<EdgeCollapse::Merge> EdgeCollapse::best_merge(uint32_t owner, uint32_t other,
                                                             bool ring_gathered) {
-    std::optional<Merge> best;
-    if (options_.freedom == Freedom::end_point) {
-        if (allowed(owner, other, ring_gathered)) best = place(owner, other, Freedom::end_point);
-    } else {
-        const bool forward = allowed(owner, other, ring_gathered), backward = allowed(other, owner, false);
-        const Freedom freedom = freedom_between(owner, other);
-        if (freedom != Freedom::end_point && forward && backward) {
-            const bool owner_goes = mesh_.valence(owner) <= mesh_.valence(other);
-            best = owner_goes ? place(owner, other, freedom) : place(other, owner, freedom);
-        } else {
-            if (forward) best = place(owner, other, Freedom::end_point);
-            if (backward) {
-                const std::optional<Merge> back = place(other, owner, Freedom::end_point);
-                if (back && (!best || back->placed.error < best->placed.error)) best = back;
-            }
-        }
+    const bool forward = allowed(owner, other, ring_gathered);
+    const bool backward = options_.freedom != Freedom::end_point && allowed(other, owner, false);
+    if (!forward && !backward) {
+        refusals_.add(Refusal::locked);
+        return {};
     }
-    if (!best) {
-        ++refusals_[static_cast<size_t>(Refusal::locked)];
-    } else if (options_.error_limit && best->placed.error > *options_.error_limit) {
-        ++beyond_error_limit_;
-        best.reset();
+    const Freedom freedom = freedom_between(owner, other);
+    if (freedom != Freedom::end_point && forward && backward) {
+        const bool owner_goes = mesh_.valence(owner) <= mesh_.valence(other);
+        return owner_goes ? place(owner, other, freedom) : place(other, owner, freedom);
+    }
+    std::optional<Merge> best;
+    if (forward) best = place(owner, other, Freedom::end_point);
+    if (backward) {
+        const std::optional<Merge> back = place(other, owner, Freedom::end_point);
+        if (back && (!best || back->placed.error < best->placed.error)) best = back;
     }
     return best;
 }
@@ -96,19 +107,19 @@ void EdgeCollapse::ring(uint32_t vertex, std::vector<uint32_t>& out) {
     out = around_other_.all();
 }
 
-EdgeCandidate EdgeCollapse::next_candidate(uint32_t owner, std::optional<EdgeCandidate> after) {
+Candidate EdgeCollapse::next_candidate(uint32_t owner, std::optional<Candidate> after) {
     if (mesh_.valence(owner) > largest_removable_valence) {
-        ++refusals_[static_cast<size_t>(Refusal::locked)];
+        refusals_.add(Refusal::locked);
         return {};
     }
     if (rules_.reads_neighbours(owner)) around_.gather(mesh_, owner);
     ring(owner, ring_);
-    EdgeCandidate best;
+    Candidate best;
     for (const uint32_t other : ring_) {
         if (options_.freedom != Freedom::end_point && other < owner) continue;
         const std::optional<Merge> merge = best_merge(owner, other, true);
         if (!merge) continue;
-        const EdgeCandidate candidate = {other, merge->placed.error};
+        const Candidate candidate = {other, merge->placed.error};
         if (after && !(*after < candidate)) continue;
         if (candidate < best) best = candidate;
     }
@@ -207,12 +218,18 @@ void EdgeCollapse::apply(const Merge& m) {
     if (m.moves) mesh_.move(m.kept, m.placed.at);
 }
 
+// What an end point costs does not matter any more.
+std::optional<EdgeCollapse::Merge> EdgeCollapse::merge_again(uint32_t owner, uint32_t other) {
+    if (options_.freedom != Freedom::end_point) return best_merge(owner, other, false);
+    return Merge{owner, other, {mesh_.position(other), 0}, false};
+}
+
 std::optional<Collapsed> EdgeCollapse::try_collapse(uint32_t owner, uint32_t other) {
-    const std::optional<Merge> merge = best_merge(owner, other, false);
+    const std::optional<Merge> merge = merge_again(owner, other);
     if (!merge) return {};
     const Refusal refusal = check(*merge);
     if (refusal != Refusal::none) {
-        ++refusals_[static_cast<size_t>(refusal)];
+        refusals_.add(refusal);
         return {};
     }
     apply(*merge);
@@ -220,25 +237,13 @@ std::optional<Collapsed> EdgeCollapse::try_collapse(uint32_t owner, uint32_t oth
 }
 
 bool EdgeCollapse::may_collapse(uint32_t removed, uint32_t kept) {
-    const std::optional<Merge> merge = best_merge(removed, kept, false);
-    if (!merge) return false;
-    const Refusal refusal = check(*merge);
-    if (refusal != Refusal::none) ++refusals_[static_cast<size_t>(refusal)];
+    if (!allowed(removed, kept, false)) {
+        refusals_.add(Refusal::locked);
+        return false;
+    }
+    const Refusal refusal = check({removed, kept, {mesh_.position(kept), 0}, false});
+    if (refusal != Refusal::none) refusals_.add(refusal);
     return refusal == Refusal::none;
-}
-
-void EdgeCollapse::forget_refusals() {
-    refusals_ = {};
-    beyond_error_limit_ = 0;
-}
-
-// A limit that was set is the reason wherever it stopped anything; else what stopped most.
-StopReason EdgeCollapse::reason_for_refusals() const {
-    const auto count = [this](Refusal r) { return refusals_[static_cast<size_t>(r)]; };
-    if (count(Refusal::error) > 0) return StopReason::error_limit;
-    if (beyond_error_limit_ > 0) return StopReason::threshold;
-    if (count(Refusal::topology) == 0 && count(Refusal::bounds) == 0) return StopReason::locked;
-    return count(Refusal::topology) >= count(Refusal::bounds) ? StopReason::topology : StopReason::bounds;
 }
 
 Simplified EdgeCollapse::finish(StopReason reason, const Watch& watch) const {

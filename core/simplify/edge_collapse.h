@@ -5,12 +5,10 @@
 // moves. Attributes of what moves are interpolated on the surface as it was (projection.h).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/base/watch.h"
@@ -18,12 +16,14 @@
 #include "core/simplify/attribute_cloud.h"
 #include "core/simplify/bounds_guard.h"
 #include "core/simplify/cheapest_first.h"
+#include "core/simplify/collapse_error.h"
 #include "core/simplify/collapse_mesh.h"
 #include "core/simplify/collapse_rules.h"
 #include "core/simplify/deviation.h"
 #include "core/simplify/line_guard.h"
 #include "core/simplify/neighbours.h"
 #include "core/simplify/projection.h"
+#include "core/simplify/refusal_counts.h"
 #include "core/simplify/target.h"
 #include "core/simplify/uv_guard.h"
 #include "core/simplify/wedge_map.h"
@@ -31,41 +31,10 @@
 
 namespace coppice {
 
-// Where the vertex that stays may go.
-enum class Freedom : uint8_t { end_point, segment, anywhere };
-
-struct Placed {
-    Vec3d at;
-    double error = 0;
-};
-
-// What the error knows of the mesh. Lives as long as the collapse.
-struct CollapseParts {
-    const CollapseMesh& mesh;
-    std::span<const FeatureEdge> features;
-    AttributeClouds& clouds;
-    Projection& projection;  // scratch
-};
-
-class CollapseError {
-  public:
-    CollapseError() = default;
-    virtual ~CollapseError() = default;
-    CollapseError(const CollapseError&) = delete;
-    CollapseError& operator=(const CollapseError&) = delete;
-
-    // Where `removed` and `kept` are best merged, and what that costs. end_point: at `kept`.
-    virtual Placed place(uint32_t removed, uint32_t kept, Freedom freedom,
-                         const std::vector<uint32_t>& wedge_map) const = 0;
-    // To be called with every collapse, before the mesh changes; the clouds' values at `kept` are the new
-    // ones.
-    virtual void merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) = 0;
-};
-
 struct CollapseOptions {
     Freedom freedom = Freedom::anywhere;  // at most
     AttributeScales scales = {};
-    std::optional<double> error_limit = {};  // of CollapseError: dearer edges are no candidates
+    bool lock_sharp_borders = false;  // for errors that do not see borders; see vertex_kind.h
 };
 
 class EdgeCollapse {
@@ -84,7 +53,7 @@ class EdgeCollapse {
 
     // As CheapestFirst asks. With end points only, the owner of an edge is the end that goes; else the end
     // with the lower index.
-    EdgeCandidate next_candidate(uint32_t owner, std::optional<EdgeCandidate> after);
+    Candidate next_candidate(uint32_t owner, std::optional<Candidate> after);
     std::optional<double> cost(uint32_t owner, uint32_t other);
     std::optional<Collapsed> try_collapse(uint32_t owner, uint32_t other);
     void ring(uint32_t vertex, std::vector<uint32_t>& out);
@@ -93,8 +62,8 @@ class EdgeCollapse {
     bool may_collapse(uint32_t removed, uint32_t kept);
 
     // Refusals are counted; they explain why nothing is left to collapse.
-    void forget_refusals();
-    StopReason reason_for_refusals() const;
+    void forget_refusals() { refusals_ = {}; }
+    StopReason reason_for_refusals() const { return refusals_.reason(); }
 
     Simplified finish(StopReason reason, const Watch& watch) const;
 
@@ -106,6 +75,7 @@ class EdgeCollapse {
     };
 
     std::optional<Merge> best_merge(uint32_t owner, uint32_t other, bool ring_gathered);
+    std::optional<Merge> merge_again(uint32_t owner, uint32_t other);
     std::optional<Merge> place(uint32_t removed, uint32_t kept, Freedom freedom);
     bool allowed(uint32_t removed, uint32_t kept, bool ring_gathered);
     Freedom freedom_between(uint32_t a, uint32_t b) const;
@@ -140,9 +110,8 @@ class EdgeCollapse {
     Neighbours around_, around_other_;
     std::vector<uint32_t> ring_;
     TargetCount count_;
-    double next_deviation_ = 0;              // of the collapse that check() has just let through
-    std::array<uint64_t, 5> refusals_ = {};  // by Refusal
-    uint64_t beyond_error_limit_ = 0;
+    double next_deviation_ = 0;  // of the collapse that check() has just let through
+    RefusalCounts refusals_;
 };
 
 }  // namespace coppice

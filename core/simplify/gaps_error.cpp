@@ -21,8 +21,8 @@ GapsError::GapsError(const CollapseParts& parts, const PlaneOptions& options, co
     });
 }
 
-Placed GapsError::place(uint32_t removed, uint32_t kept, Freedom freedom,
-                        const std::vector<uint32_t>& wedge_map) const {
+std::optional<Placed> GapsError::place(uint32_t removed, uint32_t kept, Freedom freedom,
+                                       const std::vector<uint32_t>& wedge_map) const {
     const Vec3d a = mesh_.position(removed), b = mesh_.position(kept);
     const Quadric q = planes_.sum(removed, kept);
     const Vec3d at = least_point(q, a, b, freedom);
@@ -36,7 +36,7 @@ Placed GapsError::place(uint32_t removed, uint32_t kept, Freedom freedom,
         weights += x0;
         sum += std::sqrt(x0 * squared_error(removed, kept, wedge_map, k));  // X0 A = X0 sqrt(Pi / X0)
     }
-    return {at, weights > 0 ? sum / weights : 0};
+    return Placed{at, weights > 0 ? sum / weights : 0};
 }
 
 double GapsError::squared_error(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map,

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "core/simplify/edge_collapse.h"
+#include "core/simplify/collapse_error.h"
 #include "core/simplify/plane_error.h"
 
 namespace coppice {
@@ -19,8 +19,8 @@ class GapsError final : public CollapseError {
   public:
     GapsError(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch);
 
-    Placed place(uint32_t removed, uint32_t kept, Freedom freedom,
-                 const std::vector<uint32_t>& wedge_map) const override;
+    std::optional<Placed> place(uint32_t removed, uint32_t kept, Freedom freedom,
+                                const std::vector<uint32_t>& wedge_map) const override;
     void merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) override;
 
   private:

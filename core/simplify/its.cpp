@@ -1,11 +1,14 @@
 #include "core/simplify/its.h"
 
 #include <array>
+#include <memory>
 #include <string>
 
-#include "core/simplify/end_point_collapse.h"
-#include "core/simplify/its_order.h"
+#include "core/simplify/edge_collapse.h"
+#include "core/simplify/its_faithful.h"
+#include "core/simplify/scale_parameters.h"
 #include "core/simplify/target.h"
+#include "core/simplify/unified_error.h"
 
 namespace coppice {
 
@@ -32,19 +35,9 @@ std::span<const Parameter> parameters() {
          .unit = "mesh units",
          .minimum = 0,
          .minimum_excluded = true},
-        {.id = "normal_scale",
-         .title = "what one unit of normals weighs; 0.05 of the mesh's diagonal unless given",
-         .unit = "mesh units",
-         .minimum = 0},
-        {.id = "uv_scale",
-         .title =
-             "what one unit of texture coordinates weighs; sqrt(area / area in the texture) unless given",
-         .unit = "mesh units",
-         .minimum = 0},
-        {.id = "color_scale",
-         .title = "what one unit of colours weighs; 0.05 of the mesh's diagonal unless given",
-         .unit = "mesh units",
-         .minimum = 0},
+        normal_scale_parameter(),
+        uv_scale_parameter(),
+        color_scale_parameter(),
         {.id = "max_geometric_error",
          .title =
              "edges whose geometric error is larger, in the proportions that instances give the mesh, are "
@@ -61,18 +54,20 @@ Simplified simplify(const Mesh& source, std::span<const Transform> instances, co
     watch.check();
     if (is_small_enough(source, target)) return already_smaller(source, watch);
     const bool faithful = values.choice("mode") == "faithful";
-    const EndPointOptions options = {
-        .weights = faithful ? PlaneWeights::count : PlaneWeights::area,
-        .scales = {values.number("normal_scale"), values.number("uv_scale"), values.number("color_scale")},
-        .lock_sharp_borders = faithful,  // full has planes that hold them
-        .instances = instances,
-        .max_geometric_error = values.number("max_geometric_error"),
-    };
-    EndPointCollapse work(source, target, options, watch);
+    const CollapseOptions options = {.freedom = Freedom::end_point,
+                                     .scales = attribute_scales(values),
+                                     .lock_sharp_borders = faithful};  // full has planes that hold them
+    const UnifiedOptions error = {.weights = faithful ? PlaneWeights::count : PlaneWeights::area,
+                                  .instances = instances,
+                                  .max_geometric_error = values.number("max_geometric_error")};
+    EdgeCollapse work(
+        source, target, options,
+        [&](const CollapseParts& parts) { return std::make_unique<UnifiedError>(parts, error, watch); },
+        watch);
     if (faithful) {
         collapse_under_threshold(work, values.number("threshold"), watch);
     } else {
-        collapse_cheapest_first(work, watch);
+        CheapestFirst(work, watch).run();
     }
     watch.report(1.0);
     return work.finish(work.done() ? StopReason::target : work.reason_for_refusals(), watch);

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/simplify/its_order.h"
+#include "core/simplify/its_faithful.h"
 
 namespace coppice {
 
@@ -39,7 +39,7 @@ struct Option {
 // never move: an edge keeps its length as long as it exists.
 class UnderThreshold {
   public:
-    UnderThreshold(EndPointCollapse& work, std::optional<double> first_threshold, const Watch& watch)
+    UnderThreshold(EdgeCollapse& work, std::optional<double> first_threshold, const Watch& watch)
         : work_(work), mesh_(work.mesh()), watch_(watch), around_(mesh_.vertex_count()) {
         gather_pairs();
         threshold_ = first_threshold ? *first_threshold : mean_length() / 4;
@@ -170,7 +170,7 @@ class UnderThreshold {
         around_.gather(mesh_, o.kept);
         before_ = around_.all();
         std::sort(before_.begin(), before_.end());
-        if (work_.try_collapse(o.removed, o.kept) != Refusal::none) return false;
+        if (!work_.try_collapse(o.removed, o.kept)) return false;
         around_.gather(mesh_, o.kept);
         for (const uint32_t v : around_.all()) {
             if (!std::binary_search(before_.begin(), before_.end(), v)) push(pair(o.kept, v));
@@ -178,7 +178,7 @@ class UnderThreshold {
         return true;
     }
 
-    EndPointCollapse& work_;
+    EdgeCollapse& work_;
     const CollapseMesh& mesh_;
     const Watch& watch_;
     double threshold_ = 0;
@@ -193,8 +193,7 @@ class UnderThreshold {
 
 }  // namespace
 
-void collapse_under_threshold(EndPointCollapse& work, std::optional<double> first_threshold,
-                              const Watch& watch) {
+void collapse_under_threshold(EdgeCollapse& work, std::optional<double> first_threshold, const Watch& watch) {
     UnderThreshold(work, first_threshold, watch).run();
 }
 

@@ -33,8 +33,9 @@ using CollapseInfo = OpenMesh::Decimater::CollapseInfoT<HalfEdgeMesh>;
 class NoError final : public CollapseError {
   public:
     explicit NoError(const CollapseMesh& mesh) : mesh_(mesh) {}
-    Placed place(uint32_t, uint32_t kept, Freedom, const std::vector<uint32_t>&) const override {
-        return {mesh_.position(kept), 0};
+    std::optional<Placed> place(uint32_t, uint32_t kept, Freedom,
+                                const std::vector<uint32_t>&) const override {
+        return Placed{mesh_.position(kept), 0};
     }
     void merge(uint32_t, uint32_t, const std::vector<uint32_t>&) override {}
 

@@ -114,12 +114,12 @@ void PlaneQuadrics::merge(uint32_t removed, uint32_t kept) {
 PlaneError::PlaneError(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch)
     : mesh_(parts.mesh), planes_(parts, options, watch) {}
 
-Placed PlaneError::place(uint32_t removed, uint32_t kept, Freedom freedom,
-                         const std::vector<uint32_t>& /*wedge_map*/) const {
+std::optional<Placed> PlaneError::place(uint32_t removed, uint32_t kept, Freedom freedom,
+                                        const std::vector<uint32_t>& /*wedge_map*/) const {
     const Vec3d a = mesh_.position(removed), b = mesh_.position(kept);
     const Quadric q = planes_.sum(removed, kept);
     const Vec3d at = least_point(q, a, b, freedom);
-    return {at, q(at) + flat_preference * planes_.weight(removed, kept) * squared_length(a - b)};
+    return Placed{at, q(at) + flat_preference * planes_.weight(removed, kept) * squared_length(a - b)};
 }
 
 void PlaneError::merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& /*wedge_map*/) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/watch.h"
-#include "core/simplify/edge_collapse.h"
+#include "core/simplify/collapse_error.h"
 #include "core/simplify/quadric.h"
 
 namespace coppice {
@@ -48,16 +48,13 @@ class PlaneError final : public CollapseError {
   public:
     PlaneError(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch);
 
-    Placed place(uint32_t removed, uint32_t kept, Freedom freedom,
-                 const std::vector<uint32_t>& wedge_map) const override;
+    std::optional<Placed> place(uint32_t removed, uint32_t kept, Freedom freedom,
+                                const std::vector<uint32_t>& wedge_map) const override;
     void merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) override;
 
   private:
     const CollapseMesh& mesh_;
     PlaneQuadrics planes_;
 };
-
-// Part of the squared length of an edge that is added to the mean squared distance of its planes.
-inline constexpr double flat_preference = 1e-6;
 
 }  // namespace coppice

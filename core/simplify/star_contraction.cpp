@@ -48,7 +48,7 @@ Refusal StarContraction::try_contract(std::span<const uint32_t> vertices, const 
     if (refusal == Refusal::none) {
         contract(vertices);
     } else {
-        ++refusals_[static_cast<size_t>(refusal)];
+        refusals_.add(refusal);
     }
     return refusal;
 }
@@ -207,13 +207,6 @@ void StarContraction::contract(std::span<const uint32_t> vertices) {
 }
 
 // A limit that was set is the reason wherever it stopped anything; else what stopped most.
-StopReason StarContraction::reason_for_refusals() const {
-    const auto count = [this](Refusal r) { return refusals_[static_cast<size_t>(r)]; };
-    if (count(Refusal::error) > 0) return StopReason::error_limit;
-    if (count(Refusal::topology) == 0 && count(Refusal::bounds) == 0) return StopReason::locked;
-    return count(Refusal::topology) >= count(Refusal::bounds) ? StopReason::topology : StopReason::bounds;
-}
-
 Simplified StarContraction::finish(StopReason reason, const Watch& watch) const {
     return {.mesh = mesh_.extract(source_, values_, watch),
             .error_model_units = deviation_.largest(),

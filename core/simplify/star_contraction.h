@@ -1,5 +1,5 @@
 // One simplification by contracting small connected sets of vertices to points: the state that the clustering
-// algorithms share, as EndPointCollapse is for edges that collapse onto their ends.
+// algorithms share, as EdgeCollapse is for edges.
 //
 // A set may be contracted when
 //   - its outside stays: the edges opposite to it, of the triangles with one corner in it, are one closed
@@ -24,6 +24,7 @@
 #include "core/simplify/collapse_rules.h"
 #include "core/simplify/deviation.h"
 #include "core/simplify/line_guard.h"
+#include "core/simplify/refusal_counts.h"
 #include "core/simplify/target.h"
 #include "core/simplify/uv_guard.h"
 #include "core/simplify/wedge_groups.h"
@@ -62,7 +63,7 @@ class StarContraction {
 
     // Refusals are counted; they explain why nothing is left to contract.
     void forget_refusals() { refusals_ = {}; }
-    StopReason reason_for_refusals() const;
+    StopReason reason_for_refusals() const { return refusals_.reason(); }
 
     Simplified finish(StopReason reason, const Watch& watch) const;
 
@@ -90,7 +91,7 @@ class StarContraction {
     WedgeValues values_;
     WedgeGroups groups_;
     TargetCount count_;
-    std::array<uint64_t, 5> refusals_ = {};  // by Refusal
+    RefusalCounts refusals_;
 
     // Of the set that is looked at.
     uint32_t kept_ = no_index, borders_ = 0, anchors_ = 0;

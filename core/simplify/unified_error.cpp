@@ -10,27 +10,24 @@ namespace {
 
 constexpr double border_weight = 10;  // of a plane across a border, relative to that of a triangle of edge^2
 constexpr double seam_weight = 1;     // for each side
-// Where planes cannot tell collapses apart, the square of the edge's length does, so small as not to be seen
-// elsewhere.
-constexpr double flat_preference = 1e-6;
 
 }  // namespace
 
-UnifiedError::UnifiedError(const CollapseMesh& mesh, std::span<const FeatureEdge> features,
-                           AttributeClouds& clouds, PlaneWeights weights, const InstanceMetric& metric,
-                           const Watch& watch)
-    : mesh_(mesh),
-      clouds_(clouds),
-      weights_(weights),
-      geometry_(mesh.vertex_count()),
-      spread_(size_t{mesh.vertex_count()} * clouds.channels()) {
+UnifiedError::UnifiedError(const CollapseParts& parts, const UnifiedOptions& options, const Watch& watch)
+    : mesh_(parts.mesh),
+      clouds_(parts.clouds),
+      weights_(options.weights),
+      max_geometric_error_(options.max_geometric_error),
+      geometry_(mesh_.vertex_count()),
+      spread_(size_t{mesh_.vertex_count()} * clouds_.channels()) {
+    const InstanceMetric metric(options.instances);
     add_planes(metric, watch);
-    if (weights == PlaneWeights::area) add_constraints(features, metric, watch);
-    watched_loop(mesh.vertex_count(), watch, [&](size_t i) {
+    if (weights_ == PlaneWeights::area) add_constraints(parts.features, metric, watch);
+    watched_loop(mesh_.vertex_count(), watch, [&](size_t i) {
         const auto v = static_cast<uint32_t>(i);
-        for (uint32_t w = mesh.wedge_begin(v); w < mesh.wedge_end(v); ++w) {
-            for (uint32_t k = 0; k < clouds.channels(); ++k) {
-                spread_[size_t{v} * clouds.channels() + k].weight += clouds.weight(w, k);
+        for (uint32_t w = mesh_.wedge_begin(v); w < mesh_.wedge_end(v); ++w) {
+            for (uint32_t k = 0; k < clouds_.channels(); ++k) {
+                spread_[size_t{v} * clouds_.channels() + k].weight += clouds_.weight(w, k);
             }
         }
     });
@@ -78,6 +75,13 @@ void UnifiedError::add_constraints(std::span<const FeatureEdge> features, const 
         geometry_[f.a].quadric += plane;
         geometry_[f.b].quadric += plane;
     });
+}
+
+std::optional<Placed> UnifiedError::place(uint32_t removed, uint32_t kept, Freedom /*freedom*/,
+                                          const std::vector<uint32_t>& wedge_map) const {
+    const Cost pair = cost(removed, kept, wedge_map);
+    if (max_geometric_error_ && pair.geometric > *max_geometric_error_) return {};
+    return Placed{mesh_.position(kept), pair.unified};
 }
 
 UnifiedError::Cost UnifiedError::cost(uint32_t removed, uint32_t kept,

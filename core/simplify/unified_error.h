@@ -12,6 +12,7 @@
 
 #include "core/base/watch.h"
 #include "core/simplify/attribute_cloud.h"
+#include "core/simplify/collapse_error.h"
 #include "core/simplify/collapse_mesh.h"
 #include "core/simplify/instance_metric.h"
 #include "core/simplify/quadric.h"
@@ -27,21 +28,28 @@ enum class PlaneWeights {
     count,
 };
 
-class UnifiedError {
+struct UnifiedOptions {
+    PlaneWeights weights = PlaneWeights::area;
+    std::span<const Transform> instances = {};  // how far errors reach in the world; see InstanceMetric
+    // Gamma, in mesh units and the instances' proportions: dearer pairs have no place.
+    std::optional<double> max_geometric_error = {};
+};
+
+class UnifiedError final : public CollapseError {
   public:
     struct Cost {
         double geometric = 0;  // Gamma
         double unified = 0;    // E
     };
 
-    UnifiedError(const CollapseMesh& mesh, std::span<const FeatureEdge> features, AttributeClouds& clouds,
-                 PlaneWeights weights, const InstanceMetric& metric, const Watch& watch);
+    UnifiedError(const CollapseParts& parts, const UnifiedOptions& options, const Watch& watch);
 
-    // wedge_map as WedgeMap gives it for the pair.
     Cost cost(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) const;
 
-    // To be called with every collapse, before the mesh changes.
-    void merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map);
+    // At `kept`, whatever the freedom: attributes are never blended.
+    std::optional<Placed> place(uint32_t removed, uint32_t kept, Freedom freedom,
+                                const std::vector<uint32_t>& wedge_map) const override;
+    void merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) override;
 
   private:
     // Together, since they are read together and at random.
@@ -63,6 +71,7 @@ class UnifiedError {
     const CollapseMesh& mesh_;
     AttributeClouds& clouds_;
     PlaneWeights weights_;
+    std::optional<double> max_geometric_error_;
     std::vector<Geometry> geometry_;  // per vertex
     std::vector<Spread> spread_;      // per vertex and channel
 };

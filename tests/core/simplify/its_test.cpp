@@ -12,8 +12,8 @@
 #include "core/base/error.h"
 #include "core/mesh/adjacency.h"
 #include "core/mesh/weld.h"
-#include "core/simplify/end_point_collapse.h"
-#include "core/simplify/its_order.h"
+#include "core/simplify/edge_collapse.h"
+#include "core/simplify/unified_error.h"
 #include "tests/support/properties.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface.h"
@@ -282,8 +282,12 @@ TEST(Its, turns_no_triangle_around_since_the_start) {
     for (const Mesh& mesh : {shapes::blob({.segments = 40, .rings = 30}), shapes::box({.cells = 8}),
                              shapes::torus(), shapes::grid({.height = 0.1, .uvs = true})}) {
         const Target target = {.triangles = mesh.triangle_count() / 10};
-        EndPointCollapse work(mesh, target, {}, {});
-        collapse_cheapest_first(work, {});
+        const auto make_error = [](const CollapseParts& parts) {
+            return std::make_unique<UnifiedError>(parts, UnifiedOptions{}, Watch{});
+        };
+        EdgeCollapse work(mesh, target, {.freedom = Freedom::end_point}, make_error, {});
+        const Watch watch;
+        CheapestFirst(work, watch).run();
         const CollapseMesh before(mesh);
         for (uint32_t t = 0; t < before.triangle_count(); ++t) {
             if (!work.mesh().is_live_triangle(t)) continue;

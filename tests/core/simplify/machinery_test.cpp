@@ -198,8 +198,10 @@ TEST(UnifiedError, is_that_of_the_stretched_mesh_where_its_instances_are_stretch
     const auto costs = [](const Mesh& mesh, const std::vector<Transform>& instances) {
         const CollapseMesh collapsing(mesh);
         AttributeClouds clouds(collapsing, mesh, {});
-        const UnifiedError errors(collapsing, find_features(collapsing, {}).edges, clouds, PlaneWeights::area,
-                                  InstanceMetric(instances), {});
+        const Features features = find_features(collapsing, {});
+        Projection projection(collapsing);
+        const CollapseParts parts = {collapsing, features.edges, clouds, projection};
+        const UnifiedError errors(parts, {.instances = instances}, {});
         std::vector<double> all;
         for (uint32_t corner = 0; corner < 3 * collapsing.triangle_count(); ++corner) {
             const uint32_t removed = collapsing.corner_vertex(corner);

@@ -1,0 +1,54 @@
+// What collapsing an edge costs, and where its ends are put: all that differs between algorithms that
+// collapse edges.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/mesh/vec.h"
+#include "core/simplify/attribute_cloud.h"
+#include "core/simplify/collapse_mesh.h"
+#include "core/simplify/projection.h"
+#include "core/simplify/vertex_kind.h"
+
+namespace coppice {
+
+// Part of the squared length of an edge that is added to the mean squared distance of its planes: where these
+// cannot tell edges apart, short ones go first, and elsewhere it is not seen.
+inline constexpr double flat_preference = 1e-6;
+
+// Where the vertex that stays may go.
+enum class Freedom : uint8_t { end_point, segment, anywhere };
+
+struct Placed {
+    Vec3d at;
+    double error = 0;
+};
+
+// What the error knows of the mesh. Lives as long as the collapse.
+struct CollapseParts {
+    const CollapseMesh& mesh;
+    std::span<const FeatureEdge> features;
+    AttributeClouds& clouds;
+    Projection& projection;  // scratch
+};
+
+class CollapseError {
+  public:
+    CollapseError() = default;
+    virtual ~CollapseError() = default;
+    CollapseError(const CollapseError&) = delete;
+    CollapseError& operator=(const CollapseError&) = delete;
+
+    // Where `removed` and `kept` are best merged, and what that costs; none beyond a limit of the error's
+    // own. end_point: at `kept`. wedge_map as WedgeMap gives it for the pair.
+    virtual std::optional<Placed> place(uint32_t removed, uint32_t kept, Freedom freedom,
+                                        const std::vector<uint32_t>& wedge_map) const = 0;
+    // To be called with every collapse, before the mesh changes; the clouds' values at `kept` are the new
+    // ones.
+    virtual void merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) = 0;
+};
+
+}  // namespace coppice
