@@ -107,8 +107,7 @@ TEST(Asset, leaves_as_a_zip_exactly_when_files_go_along) {
 TEST(Asset, refuses_instancing_that_its_format_cannot_hold) {
     const ReadAsset asset = read(to_bytes(triangle));
     for (const auto& [format, instancing] :
-         {std::pair(Format::obj, Instancing::nodes), std::pair(Format::obj, Instancing::gpu),
-          std::pair(Format::iobj, Instancing::expand), std::pair(Format::iobj, Instancing::gpu)}) {
+         {std::pair(Format::obj, Instancing::nodes), std::pair(Format::iobj, Instancing::expand)}) {
         try {
             write_asset(asset.scene, {.format = format, .instancing = instancing}, Watch{});
             ADD_FAILURE() << id(format);

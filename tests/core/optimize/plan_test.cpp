@@ -142,7 +142,7 @@ TEST(Validate, refuses_what_excludes_each_other) {
     EXPECT_EQ(refused({.ratio = 0.5, .triangles = 10}), ErrorCode::option_conflict);
     EXPECT_EQ(refused({.triangles = 10, .parameters = {{"stop", std::string("vertices")}}}),
               ErrorCode::option_conflict);
-    EXPECT_EQ(refused({.format = Format::obj, .instancing = Instancing::gpu}), ErrorCode::option_conflict);
+    EXPECT_EQ(refused({.format = Format::obj, .instancing = Instancing::nodes}), ErrorCode::option_conflict);
     EXPECT_EQ(refused({.format = Format::iobj, .instancing = Instancing::expand}),
               ErrorCode::option_conflict);
 }
