@@ -70,6 +70,20 @@ class Routes : public test::ServiceTest {
     std::string job;
 };
 
+TEST_F(Routes, that_take_no_options_refuse_them_by_name) {
+    const std::set<std::string> with_options = {"POST /v1/optimize", "POST /v1/jobs", "GET /v1/jobs",
+                                                "POST /v1/inspect"};
+    for (const auto& [path, methods] : methods_of_the_routes(job)) {
+        for (const std::string& method : methods) {
+            if (with_options.contains(method + " " + path)) continue;
+            const test::Answer answer = test::request(port, method, path + "?colour=red");
+            EXPECT_THAT(answer, test::is_problem(400, "option.unknown")) << method << " " << path;
+            EXPECT_EQ(test::json_member(answer.body, "where"), "\"colour\"") << answer.body;
+        }
+    }
+    EXPECT_EQ(get(job).status, 200) << "a refused DELETE deletes nothing";
+}
+
 TEST_F(Routes, answer_head_as_get_without_the_content) {
     for (const auto& [path, methods] : methods_of_the_routes(job)) {
         if (!methods.contains("GET")) continue;
