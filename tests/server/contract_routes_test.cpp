@@ -135,8 +135,9 @@ TEST(Documentation, explains_every_setting_and_tells_its_default) {
     ASSERT_TRUE(file);
     std::stringstream text;
     text << file.rdbuf();
-    for (const auto& [name, meaning] : describe_settings()) {
-        EXPECT_NE(text.str().find("| `" + name + "` |"), std::string::npos) << name << ": " << meaning;
+    for (const SettingDescription& setting : describe_settings()) {
+        EXPECT_NE(text.str().find("| `" + setting.name + "` |"), std::string::npos)
+            << setting.name << ": " << setting.meaning;
     }
     std::istringstream defaults(print_config({}));
     for (std::string line; std::getline(defaults, line);) {
