@@ -43,6 +43,9 @@ Action add_algorithms(CLI::App& app, const Terminal& terminal) {
     auto json = std::make_shared<bool>(false);
     CLI::App* command = app.add_subcommand("algorithms", "Lists the algorithms and their parameters");
     command->add_flag("--json", *json, "As JSON");
+    command->footer(
+        "Example:\n"
+        "  coppice algorithms");
     return [json, &terminal] {
         if (*json) {
             terminal.out << print_algorithms() << "\n";

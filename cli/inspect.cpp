@@ -68,6 +68,10 @@ Action add_inspect(CLI::App& app, const Terminal& terminal) {
         app.add_subcommand("inspect", "Tells what is in an asset, and what instancing saves in it");
     command->add_option("IN", flags->input, "The asset's file")->required();
     command->add_flag("--json", flags->json, "As JSON");
+    command->footer(
+        "Examples:\n"
+        "  coppice inspect forest.glb\n"
+        "  coppice inspect forest.glb --json");
     return [flags, &terminal] { return inspect_file(*flags, terminal); };
 }
 

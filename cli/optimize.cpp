@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "cli/check_count.h"
 #include "cli/commands.h"
 #include "cli/files.h"
 #include "cli/output.h"
@@ -123,8 +124,10 @@ Action add_optimize(CLI::App& app, const Terminal& terminal) {
                      "Where to; its ending is the format: .glb, .gltf, .obj, .iobj, or .zip of a gltf (or "
                      "of an obj or iobj, with --format). Another name takes --format")
         ->required();
-    command->add_option("--threads", flags->threads,
-                        "How many threads; 0: one per core. Never changes the result");
+    command
+        ->add_option("--threads", flags->threads,
+                     "How many threads; 0: one per core. Never changes the result")
+        ->check(check_count);
     command->add_option("--report", flags->report,
                         "Writes the report as JSON to this file, or to standard output (-)");
     add_options(*command, *flags);

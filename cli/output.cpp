@@ -1,5 +1,6 @@
 #include "cli/output.h"
 
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -65,24 +66,36 @@ size_t lay_out(const WrittenAsset& asset, const fs::path& path) {
     return written.size();
 }
 
+constexpr std::string_view right_ending = "end the name with .glb, .gltf, .obj, .iobj or .zip";
+
+// What the ending asks for; none where it is no format's.
+std::optional<Format> named_format(const fs::path& path) {
+    const std::optional<Format> named = format_from_file_name(path.string());
+    require(!named || is_writable(*named), ErrorCode::option_invalid, "output",
+            "{} asks for {}, which is read and not written; {}", path.filename().string(),
+            named ? id(*named) : "", right_ending);
+    return named;
+}
+
 }  // namespace
+
+Format output_format(const fs::path& path) {
+    if (is_zip(path)) return format_in_zip(path, {});
+    const std::optional<Format> named = named_format(path);
+    require(named.has_value(), ErrorCode::option_invalid, "output",
+            "{} does not say in which format to write; {}", path.filename().string(), right_ending);
+    return *named;
+}
 
 Format output_format(const fs::path& path, std::optional<Format> told) {
     if (is_zip(path)) return format_in_zip(path, told);
-    const std::optional<Format> named = format_from_file_name(path.string());
+    const std::optional<Format> named = named_format(path);
     const std::string name = path.filename().string();
-    require(
-        !named || is_writable(*named), ErrorCode::option_invalid, "output",
-        "{} asks for {}, which is read and not written; end the name with .glb, .gltf, .obj, .iobj or .zip",
-        name, named ? id(*named) : "");
     require(!named || !told || *named == *told, ErrorCode::option_conflict, "format",
             "{} asks for {}, but --format is {}; end the name with .{}, or leave --format out", name,
             named ? id(*named) : "", told ? id(*told) : "", told ? id(*told) : "");
-    require(
-        named || told, ErrorCode::option_invalid, "output",
-        "{} does not say in which format to write; end the name with .glb, .gltf, .obj, .iobj or .zip, or "
-        "give --format",
-        name);
+    require(named || told, ErrorCode::option_invalid, "output",
+            "{} does not say in which format to write; {}, or give --format", name, right_ending);
     return named ? *named : *told;
 }
 

@@ -15,6 +15,9 @@ namespace coppice {
 // each other.
 Format output_format(const std::filesystem::path& path, std::optional<Format> told);
 
+// The same where nothing can be told.
+Format output_format(const std::filesystem::path& path);
+
 // Writes the asset, in the format of output_format(). Under the ending of a format its resources are laid out
 // beside it, and all are replaced as one; one of them that would replace a different file is refused with
 // storage_failed. A .zip is one, and any other name gets the bytes as they are. Returns how many files were

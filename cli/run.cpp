@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <new>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/commands.h"
 #include "core/base/error.h"
 #include "core/optimize/engine.h"
+#include "proto/unknown_option.h"
 
 namespace coppice {
 
@@ -40,12 +44,29 @@ int guarded(const Action& action, const Terminal& terminal) {
     }
 }
 
+std::optional<std::string> unknown_flag(const CLI::App& app) {
+    for (const std::string& argument : app.remaining(true)) {
+        if (argument.starts_with("--")) return argument.substr(0, argument.find('='));
+    }
+    return {};
+}
+
+// In the words that a request gets for an option that does not exist.
+[[noreturn]] void refuse_flag(const CLI::App& app, const std::string& flag) {
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    const CLI::App& command = chosen.empty() ? app : *chosen.front();
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    fail_unknown_option(flag, {names.begin(), names.end()});
+}
+
 }  // namespace
 
 int run(const std::vector<std::string>& arguments, const Terminal& terminal) {
     CLI::App app(
-        "Makes instanced 3D scenes small: finds what repeats, simplifies each unique mesh once, writes it "
-        "once.",
+        "Makes instanced 3D scenes small: simplifies each unique mesh once, and keeps its instances.",
         "coppice");
     app.set_version_flag(
         "--version", "coppice " + std::string(engine_version()) + " (" + std::string(engine_build()) + ")");
@@ -70,6 +91,11 @@ int run(const std::vector<std::string>& arguments, const Terminal& terminal) {
     try {
         std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
         app.parse(reversed);
+    } catch (const CLI::ExtrasError& error) {
+        const std::optional<std::string> flag = unknown_flag(app);
+        if (flag) return guarded([&]() -> int { refuse_flag(app, *flag); }, terminal);
+        app.exit(error, terminal.out, terminal.err);
+        return wrong_usage;
     } catch (const CLI::ParseError& error) {
         return app.exit(error, terminal.out, terminal.err) == 0 ? done : wrong_usage;
     }

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "cli/check_count.h"
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "cli/summary.h"
@@ -22,7 +23,7 @@ struct SampleFlags {
 
 int write_sample(const SampleFlags& flags, const Terminal& terminal) {
     const std::filesystem::path path = flags.output;
-    const Format format = output_format(path, {});
+    const Format format = output_format(path);
     const Scene scene = make_sample(flags.name, flags.options);
     const WrittenAsset asset = write_asset(scene, {.format = format, .base_name = path.stem().string()}, {});
     write_asset_file(asset, path);
@@ -36,8 +37,9 @@ int write_sample(const SampleFlags& flags, const Terminal& terminal) {
 std::string list_samples() {
     std::string text = "Samples:\n";
     for (const SampleKind& kind : sample_kinds()) {
-        text += fmt::format("  {:<9} {}; {} copies, {} triangles each\n", kind.name, kind.title, kind.copies,
-                            kind.triangles);
+        const uint32_t about = (kind.triangles + 50) / 100 * 100;  // the shape decides how many exactly
+        text += fmt::format("  {:<9} {}; {} copies, about {} triangles each\n", kind.name, kind.title,
+                            kind.copies, about);
     }
     return text + "Example:\n  coppice sample forest -o forest.glb --seed 7 --scale 2";
 }
@@ -51,12 +53,15 @@ Action add_sample(CLI::App& app, const Terminal& terminal) {
     command
         ->add_option("-o,--output", flags->output, "Where to: .glb, .gltf, .obj, .iobj, or .zip (of a .gltf)")
         ->required();
-    command->add_option("--seed", flags->options.seed,
-                        "Another seed: other shapes and places, the same counts");
+    command
+        ->add_option("--seed", flags->options.seed, "Another seed: other shapes and places, the same counts")
+        ->check(check_count);
     command->add_option("--scale", flags->options.scale,
                         "Multiplies the copies and the triangles of each mesh");
-    command->add_option("--copies", flags->options.copies, "How many instances of the repeated meshes");
-    command->add_option("--triangles", flags->options.triangles, "Of each repeated mesh, about");
+    command->add_option("--copies", flags->options.copies, "How many instances of the repeated meshes")
+        ->check(check_count);
+    command->add_option("--triangles", flags->options.triangles, "Of each repeated mesh, about")
+        ->check(check_count);
     command->add_flag("--joined", flags->options.joined, "Everything in one mesh, nothing instanced");
     command->footer(list_samples());
     return [flags, &terminal] { return write_sample(*flags, terminal); };

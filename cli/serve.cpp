@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -43,11 +45,13 @@ Action add_serve(CLI::App& app, const Terminal& terminal) {
             ->type_name("")
             ->group("Settings");
     };
-    for (const auto& [name, help] : describe_settings()) add(name, help);
+    for (const auto& [name, meaning, default_value] : describe_settings())
+        add(name, fmt::format("{} [{}]", meaning, default_value));
     if (command->get_option_no_throw("--config") == nullptr) add("config", "a TOML file with settings");
     command->add_flag("--print-config", flags->print, "Prints the settings in effect as TOML, and ends");
     command->footer(
-        "Each setting is also an environment variable, COPPICE_ and its name in capitals.\n"
+        "Defaults stand in brackets. Each setting is also an environment variable, COPPICE_ and its name in\n"
+        "capitals.\n"
         "Example:\n"
         "  coppice serve --listen 127.0.0.1:8080 --data ./coppice-data");
     return [flags, &terminal] { return serve(*flags, terminal); };

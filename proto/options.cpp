@@ -17,7 +17,6 @@ namespace {
 constexpr auto instancings = std::to_array<std::pair<Instancing, std::string_view>>({
     {Instancing::automatic, "auto"},
     {Instancing::nodes, "nodes"},
-    {Instancing::gpu, "gpu"},
     {Instancing::expand, "expand"},
 });
 
@@ -69,7 +68,7 @@ constexpr auto rules = std::to_array<Rule>({
     {"triangles", "a whole number of at least 1", set<&OptimizeOptions::triangles, whole_number>},
     {"error", "a number over 0, as a fraction of the scene's diagonal", set<&OptimizeOptions::error, number>},
     {"format", "glb, gltf, obj or iobj", set<&OptimizeOptions::format, to_format>},
-    {"instancing", "auto, nodes, gpu or expand", set<&OptimizeOptions::instancing, to_instancing>},
+    {"instancing", "auto, nodes or expand", set<&OptimizeOptions::instancing, to_instancing>},
     {"discover", "none, because this version does not find copies yet", check_discover},
     {"entry", "the path of a file in the archive", set<&OptimizeOptions::entry, text>},
 });

@@ -63,7 +63,8 @@ std::string_view nearest(std::string_view name, const std::vector<std::string_vi
 }
 
 std::string hint(std::string_view name, const std::vector<std::string_view>& known) {
-    if (std::find(planned.begin(), planned.end(), name) != planned.end()) return " in this version";
+    const std::string_view bare = name.substr(std::min(name.find_first_not_of('-'), name.size()));
+    if (std::find(planned.begin(), planned.end(), bare) != planned.end()) return " in this version";
     const std::string_view meant = nearest(name, known);
     return meant.empty() ? std::string() : fmt::format("; did you mean {}?", meant);
 }

@@ -246,9 +246,14 @@ std::string print_config(const Config& config) {
     return text;
 }
 
-std::vector<std::pair<std::string, std::string>> describe_settings() {
-    std::vector<std::pair<std::string, std::string>> described;
-    for (const Setting& setting : make_settings()) described.emplace_back(setting.name, setting.help);
+std::vector<SettingDescription> describe_settings() {
+    std::vector<SettingDescription> described;
+    for (const Setting& setting : make_settings()) {
+        const std::string value = setting.print({});
+        const bool is_text = value.starts_with('"');
+        described.push_back({std::string(setting.name), std::string(setting.help),
+                             is_text ? value.substr(1, value.size() - 2) : value});
+    }
     return described;
 }
 

@@ -42,8 +42,12 @@ Config load_config(const Pairs& flags, const Environment& environment = process_
 // The effective settings as TOML; what it prints loads back to the same.
 std::string print_config(const Config& config);
 
-// Every setting: its name and what it means. For help.
-std::vector<std::pair<std::string, std::string>> describe_settings();
+// Every setting, for help.
+struct SettingDescription {
+    std::string name, meaning;
+    std::string default_value;  // as it is typed after a flag
+};
+std::vector<SettingDescription> describe_settings();
 
 struct ListenAddress {
     std::string host;

@@ -13,6 +13,7 @@
 #include "core/format/ply/read_ply.h"
 #include "core/format/resources.h"
 #include "core/format/stl/read_stl.h"
+#include "core/format/warning_tally.h"
 
 namespace coppice {
 
@@ -93,9 +94,22 @@ Scene read_scene(const UploadedFile& file, Format format, const Resources& resou
     fail(ErrorCode::asset_unsupported, "", fmt::format("{} is not read", id(format)));
 }
 
-ReadAsset read_file(const UploadedFile& file, Format format, const Resources& resources,
+// The client's parts come first among the resources; what else a zip holds needs no use.
+void warn_of_unused(const Resources& resources, size_t parts, std::vector<Warning>& warnings) {
+    WarningTally tally;
+    for (size_t i = 0; i < parts; ++i) {
+        if (resources.was_found(i)) continue;
+        const std::string& path = resources.files()[i].path;
+        tally.note("resource.unused",
+                   fmt::format("the resource \"{}\" was sent, but the asset does not use it", path), path);
+    }
+    tally.move_to(warnings);
+}
+
+ReadAsset read_file(const UploadedFile& file, Format format, const Resources& resources, size_t parts,
                     const ReadLimits& limits, const Watch& watch) {
     ReadAsset asset = {read_scene(file, format, resources, limits, watch), format};
+    warn_of_unused(resources, parts, asset.scene.warnings);
     // The glTF reader has done so, and its warnings point into the document.
     if (format != Format::glb && format != Format::gltf) clean_triangles(asset.scene, watch);
     return asset;
@@ -125,7 +139,8 @@ ReadAsset read_archive(const Upload& upload, const std::string& media_type, cons
         if (&file != &asset) resources.push_back({file.path, file.bytes});
     }
     return read_file({asset.path, {}, asset.bytes}, format,
-                     Resources(std::move(resources), folder(asset.path)), limits, watch.part(0.2, 1));
+                     Resources(std::move(resources), folder(asset.path)), upload.resources.size(), limits,
+                     watch.part(0.2, 1));
 }
 
 void require_instancing_fits(const WriteOptions& options) {
@@ -188,7 +203,8 @@ ReadAsset read_asset(const Upload& upload, const ReadLimits& limits, const Watch
     const std::string path = tidy_client_path(upload.asset.path);
     const Format format = detect(upload.asset.bytes, media_type, path);
     const Resources resources(files_beside(upload), folder(path), upload.beside);
-    return read_file({path, {}, upload.asset.bytes}, format, resources, limits, watch);
+    return read_file({path, {}, upload.asset.bytes}, format, resources, upload.resources.size(), limits,
+                     watch);
 }
 
 }  // namespace coppice

@@ -38,7 +38,7 @@ struct ReadAsset {
 // upload alone, checks every bound, and reads. Throws Error with asset_*, resource_* codes and where.
 ReadAsset read_asset(const Upload& upload, const ReadLimits& limits, const Watch& watch);
 
-enum class Instancing { automatic, nodes, gpu, expand };
+enum class Instancing { automatic, nodes, expand };
 
 struct WriteOptions {
     Format format = Format::glb;

@@ -5,6 +5,7 @@
 
 #include "core/base/ascii.h"
 #include "core/base/error.h"
+#include "core/base/number.h"
 #include "core/format/gltf_version.h"
 #include "core/format/iobj/directive.h"
 #include "core/format/line_reader.h"
@@ -72,9 +73,32 @@ std::string_view without_byte_order_mark(std::string_view text) {
     return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
 }
 
-// Every line of the beginning is OBJ's, and one of them has geometry or an object.
+bool is_number(std::string_view word) {
+    return parse_number(word).has_value();
+}
+
+// 7, -7, 7/7, 7//7 or 7/7/7
+bool is_corner(std::string_view word) {
+    return word.find_first_of("0123456789") < 2 && word.find_first_not_of("-/0123456789") == word.npos;
+}
+
+// v, vt, vn and f with as many numbers as they take.
+bool is_obj_geometry(std::string_view word, Line& line) {
+    const bool is_face = word == "f";
+    if (!is_face && word != "v" && word != "vt" && word != "vn") return false;
+    size_t numbers = 0;
+    for (; !line.ended(); ++numbers) {
+        const std::string_view next = line.word();
+        if (!(is_face ? is_corner(next) : is_number(next))) return false;
+    }
+    return numbers >= (word == "vt" ? 1U : 3U);
+}
+
+// Every line of the beginning is OBJ's, and one of them has geometry or an object. Where a word is not known,
+// two lines have to be geometry beyond doubt.
 bool looks_like_obj(std::string_view text) {
-    bool has_geometry = false;
+    bool has_geometry = false, has_other_words = false;
+    size_t sure = 0;
     LineReader reader(text, true);
     Line line;
     for (size_t i = 0; i < sniffed_lines && reader.next(line); ++i) {
@@ -82,10 +106,11 @@ bool looks_like_obj(std::string_view text) {
             break;  // the cut may be inside the line
         if (line.ended()) continue;
         const std::string_view word = line.word();
-        if (std::find(obj_words.begin(), obj_words.end(), word) == obj_words.end()) return false;
+        if (std::find(obj_words.begin(), obj_words.end(), word) == obj_words.end()) has_other_words = true;
         has_geometry = has_geometry || word == "v" || word == "f" || word == "o" || word == "g";
+        if (is_obj_geometry(word, line)) ++sure;
     }
-    return has_geometry;
+    return has_other_words ? sure >= 2 : has_geometry;
 }
 
 std::string unsupported_text(std::string_view text) {
@@ -97,12 +122,19 @@ std::string unsupported_text(std::string_view text) {
     return "XML";
 }
 
+// Of one that does not begin with "2.".
+std::string_view meaning_of_version(std::string_view version) {
+    if (version.starts_with("0.") || version.starts_with("1.")) return "glTF 1.0, 3D Tiles";
+    const auto number = parse_number(version);
+    return number && *number > 2 && *number < 10 ? "later than glTF 2.0" : "no version of glTF";
+}
+
 Recognised json(std::string_view text) {
     const std::string version = gltf_version(text);
     if (version.empty()) return {};
     if (version.starts_with("2.")) return {.format = Format::gltf};
-    return {.unsupported =
-                fmt::format("JSON with asset.version \"{}\" (glTF 1.0, 3D Tiles)", version.substr(0, 20))};
+    return {.unsupported = fmt::format("JSON with asset.version \"{}\" ({})", version.substr(0, 20),
+                                       meaning_of_version(version))};
 }
 
 Recognised glb(ByteView bytes) {
@@ -166,9 +198,12 @@ Format told_format(std::string_view media_type, std::string_view file_name) {
     if (told) return *told;
     if (named && media_type.empty()) return *named;
     fail(ErrorCode::asset_unsupported, place_of(file_name),
-         fmt::format("the content is of no format that is read{}; {}",
-                     media_type.empty() ? std::string() : fmt::format(", and neither is \"{}\"", media_type),
-                     what_is_read));
+         media_type.empty()
+             ? fmt::format("the content is of no format that is recognised; {}. If it is one of these, say "
+                           "which, by its Content-Type (model/obj) or the ending of its name",
+                           what_is_read)
+             : fmt::format("the content is of no format that is read, and neither is \"{}\"; {}", media_type,
+                           what_is_read));
 }
 
 }  // namespace

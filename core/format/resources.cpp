@@ -89,7 +89,7 @@ void require_inside_upload(std::string_view path, std::string_view where) {
 }
 
 Resources::Resources(std::vector<ResourceFile> files, std::string folder, FileSource* beside)
-    : files_(std::move(files)), folder_(std::move(folder)), beside_(beside) {
+    : files_(std::move(files)), found_(files_.size(), false), folder_(std::move(folder)), beside_(beside) {
     for (ResourceFile& file : files_) file.path = tidy(file.path);
 }
 
@@ -107,6 +107,14 @@ const ResourceFile* Resources::find_path(std::string_view path, std::string_view
     require_inside_upload(path, where);
     const std::string from_root = tidy(path);
     const std::string wanted = folder_.empty() ? from_root : folder_ + "/" + from_root;
+    if (const ResourceFile* own = find_own(wanted, from_root)) {
+        found_[static_cast<size_t>(own - files_.data())] = true;
+        return own;
+    }
+    return beside_ != nullptr ? beside_->open(wanted) : nullptr;
+}
+
+const ResourceFile* Resources::find_own(const std::string& wanted, const std::string& from_root) const {
     const ResourceFile* exact_from_root = nullptr;
     const ResourceFile* by_base_name = nullptr;
     size_t matches = 0;
@@ -119,8 +127,7 @@ const ResourceFile* Resources::find_path(std::string_view path, std::string_view
         }
     }
     if (exact_from_root) return exact_from_root;
-    if (matches == 1) return by_base_name;
-    return beside_ != nullptr ? beside_->open(wanted) : nullptr;
+    return matches == 1 ? by_base_name : nullptr;
 }
 
 std::string Resources::listing() const {

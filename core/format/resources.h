@@ -11,7 +11,7 @@
 
 namespace coppice {
 
-// Immutable; safe to use from several threads where no source stands behind it.
+// Remembers what was found, so that it takes one thread at a time.
 class Resources {
   public:
     Resources() = default;
@@ -36,9 +36,13 @@ class Resources {
     std::string listing() const;
 
     const std::vector<ResourceFile>& files() const { return files_; }
+    bool was_found(size_t file) const { return found_[file]; }  // by the asset, under any of its URIs
 
   private:
+    const ResourceFile* find_own(const std::string& wanted, const std::string& from_root) const;
+
     std::vector<ResourceFile> files_;
+    mutable std::vector<bool> found_;
     std::string folder_;
     FileSource* beside_ = nullptr;
 };

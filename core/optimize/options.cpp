@@ -1,12 +1,34 @@
 #include "core/optimize/options.h"
 
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "core/base/error.h"
 #include "core/optimize/plan.h"
 #include "core/simplify/registry.h"
 
 namespace coppice {
+
+namespace {
+
+// A parameter that means something in one mode of its algorithm alone.
+struct OfMode {
+    std::string_view algorithm, parameter, mode;
+};
+constexpr std::array of_modes = {OfMode{"its", "threshold", "faithful"}};
+
+void check_modes(const Algorithm& algorithm, const ParameterValues& values, const OptimizeOptions& options) {
+    for (const OfMode& rule : of_modes) {
+        const bool is_idle = algorithm.id == rule.algorithm && values.choice("mode") != rule.mode &&
+                             options.parameters.contains(std::string(rule.parameter));
+        require(!is_idle, ErrorCode::option_conflict, fmt::format("parameters.{}", rule.parameter),
+                "parameters.{} belongs to parameters.mode={}, and the mode is {}", rule.parameter, rule.mode,
+                values.choice("mode"));
+    }
+}
+
+}  // namespace
 
 void check_output(Format format, Instancing instancing) {
     require(is_writable(format), ErrorCode::option_invalid, "format",
@@ -30,6 +52,7 @@ void validate(const OptimizeOptions& options) {
     const Algorithm& algorithm =
         options.algorithm.empty() ? default_algorithm() : find_algorithm(options.algorithm);
     const ParameterValues parameters = ParameterValues::parse(algorithm.parameters, options.parameters);
+    check_modes(algorithm, parameters, options);
 
     const auto ratio = options.ratio.value_or(1);
     require(ratio > 0 && ratio <= 1, ErrorCode::option_invalid, "ratio",

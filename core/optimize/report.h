@@ -13,11 +13,11 @@
 namespace coppice {
 
 struct AssetSummary {
-    uint64_t bytes = 0;  // of the whole file, or of all parts of an upload
+    uint64_t bytes = 0;  // of the whole file, or of all parts of an upload, used or not
     Format format = Format::glb;
     uint64_t meshes = 0;  // unique
     uint64_t instances = 0;
-    uint64_t unique_triangles = 0;
+    uint64_t unique_triangles = 0;    // stored; of an input those that reading left, once it had repaired
     uint64_t rendered_triangles = 0;  // after expansion of instances
     uint64_t unique_vertices = 0;     // positions
     uint64_t wedges = 0;

@@ -20,6 +20,14 @@ std::string http_date() {
     return {text.data(), length};
 }
 
+void refuse_options(const Request& request) {
+    if (request.query.empty()) return;
+    const std::string name =
+        request.query.front().first.substr(0, 64);  // of any option: what is longer is cut
+    fail(ErrorCode::option_unknown, name,
+         fmt::format("\"{}\" is not known here; this path takes no options", name));
+}
+
 }  // namespace
 
 void set_problem(Response& response, const Problem& problem) {
@@ -57,6 +65,7 @@ std::string answer(const Router& router, Request& request, Response& response, b
         pattern = route.pattern;
         require(!only_always || route.always, ErrorCode::queue_full, "",
                 "the service has as many connections as it takes (http_connections); try again soon");
+        if (!route.takes_options) refuse_options(request);
         route.handler(request, response);
     } catch (...) {
         set_problem_of_current_exception(response, request.id);

@@ -19,7 +19,8 @@ struct Route {
     std::string method;
     std::string pattern;  // "/v1/jobs/{id}/result": {name} takes one segment, which is not empty
     Handler handler;
-    bool always = false;  // answered even where connections are over their limit: health
+    bool always = false;         // answered even where connections are over their limit: health
+    bool takes_options = false;  // reads the query; any other refuses one
 };
 
 class Router {

@@ -5,9 +5,13 @@
 namespace coppice {
 
 Route inspect_route(Services& services) {
-    return {"POST", "/v1/inspect", [&services](Request& request, Response& response) {
-                submit_and_wait(JobKind::inspect, request, response, services);
-            }};
+    return {.method = "POST",
+            .pattern = "/v1/inspect",
+            .handler =
+                [&services](Request& request, Response& response) {
+                    submit_and_wait(JobKind::inspect, request, response, services);
+                },
+            .takes_options = true};
 }
 
 }  // namespace coppice

@@ -44,13 +44,17 @@ JobQuery parse_query(const Request& request) {
 }  // namespace
 
 Route list_jobs_route(Services& services) {
-    return {"GET", "/v1/jobs", [&services](Request& request, Response& response) {
-                const JobPage page = services.store.list(parse_query(request));
-                std::string jobs;
-                for (const Job& job : page.jobs) jobs += (jobs.empty() ? "" : ",") + print_job(job);
-                const std::string next = page.next ? "\"" + std::to_string(*page.next) + "\"" : "null";
-                response.json(200, R"({"jobs":[)" + jobs + R"(],"next_cursor":)" + next + "}");
-            }};
+    return {.method = "GET",
+            .pattern = "/v1/jobs",
+            .handler =
+                [&services](Request& request, Response& response) {
+                    const JobPage page = services.store.list(parse_query(request));
+                    std::string jobs;
+                    for (const Job& job : page.jobs) jobs += (jobs.empty() ? "" : ",") + print_job(job);
+                    const std::string next = page.next ? "\"" + std::to_string(*page.next) + "\"" : "null";
+                    response.json(200, R"({"jobs":[)" + jobs + R"(],"next_cursor":)" + next + "}");
+                },
+            .takes_options = true};
 }
 
 }  // namespace coppice

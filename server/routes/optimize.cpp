@@ -5,9 +5,13 @@
 namespace coppice {
 
 Route optimize_route(Services& services) {
-    return {"POST", "/v1/optimize", [&services](Request& request, Response& response) {
-                submit_and_wait(JobKind::optimize, request, response, services);
-            }};
+    return {.method = "POST",
+            .pattern = "/v1/optimize",
+            .handler =
+                [&services](Request& request, Response& response) {
+                    submit_and_wait(JobKind::optimize, request, response, services);
+                },
+            .takes_options = true};
 }
 
 }  // namespace coppice

@@ -5,9 +5,13 @@
 namespace coppice {
 
 Route submit_route(Services& services) {
-    return {"POST", "/v1/jobs", [&services](Request& request, Response& response) {
-                answer_accepted(response, submit_upload(JobKind::optimize, request, response, services));
-            }};
+    return {.method = "POST",
+            .pattern = "/v1/jobs",
+            .handler =
+                [&services](Request& request, Response& response) {
+                    answer_accepted(response, submit_upload(JobKind::optimize, request, response, services));
+                },
+            .takes_options = true};
 }
 
 }  // namespace coppice

@@ -222,14 +222,72 @@ TEST_F(CommandLine, exits_with_2_for_wrong_usage_and_names_what_is_wrong) {
     EXPECT_EQ(run({}), 2);
     EXPECT_EQ(run({"optimise"}), 2);
     EXPECT_EQ(run({"optimize", path("in.glb")}), 2);
-    EXPECT_EQ(run({"optimize", path("in.glb"), "-o", path("o.glb"), "--rato", "0.5"}), 2);
-    EXPECT_THAT(err(), HasSubstr("--rato"));
+    EXPECT_EQ(run({"optimize", path("in.glb"), path("more.glb"), "-o", path("o.glb")}), 2);
+    EXPECT_THAT(err(), HasSubstr("more.glb"));
     for (const char* ratio : {"0", "1.5", "abc"}) {
         EXPECT_EQ(run({"optimize", path("in.glb"), "-o", path("o.glb"), "--ratio", ratio}), 2) << ratio;
         EXPECT_THAT(err(), HasSubstr("ratio is"));
     }
     EXPECT_EQ(run({"sample", "jungle", "-o", path("o.glb")}), 2);
     EXPECT_FALSE(fs::exists(folder_ / "o.glb"));
+}
+
+TEST_F(CommandLine, names_the_flag_that_was_probably_meant) {
+    const std::vector<std::string> optimize = {"optimize", path("in.glb"), "-o", path("o.glb")};
+    const auto refused = [&](std::vector<std::string> arguments, const std::vector<std::string>& flags) {
+        arguments.insert(arguments.end(), flags.begin(), flags.end());
+        EXPECT_EQ(run(arguments), 2);
+        return err();
+    };
+    EXPECT_THAT(
+        refused(optimize, {"--rato", "0.5"}),
+        StartsWith("coppice: option.unknown: --rato is not an option; did you mean --ratio? (options"));
+    EXPECT_THAT(refused(optimize, {"--rato=0.5"}),
+                HasSubstr("--rato is not an option; did you mean --ratio?"));
+    EXPECT_THAT(refused(optimize, {"--parameters.mod", "full"}),
+                HasSubstr("did you mean --parameters.mode?"));
+    EXPECT_THAT(refused(optimize, {"--compression", "draco"}),
+                HasSubstr("--compression is not an option in this version"));
+    EXPECT_THAT(refused({"serve"}, {"--lisen", "127.0.0.1:9"}), HasSubstr("did you mean --listen?"));
+    EXPECT_FALSE(fs::exists(folder_ / "o.glb"));
+}
+
+TEST_F(CommandLine, refuses_an_instancing_that_is_not_written_before_it_reads_anything) {
+    EXPECT_EQ(run({"optimize", path("not-there.glb"), "-o", path("o.glb"), "--instancing", "gpu"}), 2);
+    EXPECT_THAT(err(), HasSubstr("instancing is gpu; it takes auto, nodes or expand"));
+}
+
+TEST_F(CommandLine, takes_no_negative_number_for_a_count) {
+    for (const char* flag : {"--seed", "--copies", "--triangles"}) {
+        EXPECT_EQ(run({"sample", "cad", "-o", path("o.glb"), flag, "-1"}), 2) << flag;
+        EXPECT_THAT(err(), HasSubstr(flag)) << err();
+    }
+    make_sample("in.glb");
+    EXPECT_EQ(run({"optimize", path("in.glb"), "-o", path("o.glb"), "--threads", "-1"}), 2);
+    EXPECT_THAT(err(), HasSubstr("--threads"));
+    EXPECT_FALSE(fs::exists(folder_ / "o.glb"));
+}
+
+TEST_F(CommandLine, advises_a_sample_only_what_it_takes) {
+    EXPECT_EQ(run({"sample", "cad", "-o", path("o.xyz")}), 2);
+    EXPECT_THAT(err(),
+                HasSubstr("o.xyz does not say in which format to write; end the name with .glb, .gltf, "
+                          ".obj, .iobj or .zip"));
+    EXPECT_THAT(err(), Not(HasSubstr("--format")));
+}
+
+TEST_F(CommandLine, shows_each_command_its_own_help) {
+    EXPECT_EQ(run({"serve", "--help"}), 0);
+    EXPECT_THAT(out(), HasSubstr("127.0.0.1:8080]"));
+    EXPECT_THAT(out(), HasSubstr("[1000]"));
+    for (const char* command : {"inspect", "algorithms"}) {
+        EXPECT_EQ(run({command, "--help"}), 0);
+        EXPECT_THAT(out(), HasSubstr(std::string("  coppice ") + command));
+        EXPECT_THAT(out(), Not(HasSubstr("coppice optimize"))) << command;
+        EXPECT_THAT(out(), Not(HasSubstr("COMMAND --help"))) << command;
+    }
+    EXPECT_EQ(run({"sample", "--help"}), 0);
+    EXPECT_THAT(out(), HasSubstr("13 copies, about 5000 triangles each"));
 }
 
 TEST_F(CommandLine, exits_with_1_when_the_work_fails) {

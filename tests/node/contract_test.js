@@ -207,7 +207,9 @@ test('bad options are problems that name the option', async () => {
         ['?compression=draco', 'option.unknown', 'compression'],
         ['?ratio=0.5&triangles=10', 'option.conflict', 'triangles'],
         ['?ratio=0.5&ratio=0.6', 'option.conflict', 'ratio'],
-        ['?format=obj&instancing=gpu', 'option.conflict', 'instancing'],
+        ['?format=obj&instancing=nodes', 'option.conflict', 'instancing'],
+        ['?instancing=gpu', 'option.invalid', 'instancing'],
+        ['?parameters.threshold=3', 'option.conflict', 'parameters.threshold'],
         ['?algorithm=qslim', 'option.invalid', 'algorithm'],
         ['?parameters.mode=half', 'option.invalid', 'parameters.mode'],
     ];

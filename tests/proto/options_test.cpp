@@ -118,9 +118,19 @@ TEST(Options, refuse_triangles_that_are_not_a_count) {
     }
 }
 
+TEST(Options, refuse_an_instancing_that_is_not_written) {
+    for (const char* instancing : {"gpu", "all"}) {
+        const Error error = query_refusal({{"instancing", instancing}});
+        EXPECT_EQ(error.code(), ErrorCode::option_invalid);
+        EXPECT_EQ(error.where(), "instancing");
+        EXPECT_EQ(error.message(),
+                  "instancing is " + std::string(instancing) + "; it takes auto, nodes or expand");
+    }
+}
+
 TEST(Options, that_exclude_each_other_are_a_conflict) {
     EXPECT_EQ(query_refusal({{"ratio", "0.5"}, {"triangles", "100"}}).code(), ErrorCode::option_conflict);
-    EXPECT_EQ(query_refusal({{"format", "obj"}, {"instancing", "gpu"}}).code(), ErrorCode::option_conflict);
+    EXPECT_EQ(query_refusal({{"format", "obj"}, {"instancing", "nodes"}}).code(), ErrorCode::option_conflict);
 }
 
 TEST(Options, that_are_given_twice_are_a_conflict) {

@@ -34,6 +34,11 @@ TEST(UnknownOption, tells_what_is_planned_from_what_is_misspelled) {
               "compression is not an option in this version (options are algorithm, ratio, triangles)");
 }
 
+TEST(UnknownOption, knows_what_is_planned_as_a_flag_too) {
+    EXPECT_EQ(message_for("--compression"),
+              "--compression is not an option in this version (options are algorithm, ratio, triangles)");
+}
+
 TEST(UnknownOption, shows_that_a_name_is_empty) {
     EXPECT_EQ(message_for(""), "\"\" is not an option (options are algorithm, ratio, triangles)");
 }

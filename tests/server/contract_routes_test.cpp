@@ -70,6 +70,20 @@ class Routes : public test::ServiceTest {
     std::string job;
 };
 
+TEST_F(Routes, that_take_no_options_refuse_them_by_name) {
+    const std::set<std::string> with_options = {"POST /v1/optimize", "POST /v1/jobs", "GET /v1/jobs",
+                                                "POST /v1/inspect"};
+    for (const auto& [path, methods] : methods_of_the_routes(job)) {
+        for (const std::string& method : methods) {
+            if (with_options.contains(method + " " + path)) continue;
+            const test::Answer answer = test::request(port, method, path + "?colour=red");
+            EXPECT_THAT(answer, test::is_problem(400, "option.unknown")) << method << " " << path;
+            EXPECT_EQ(test::json_member(answer.body, "where"), "\"colour\"") << answer.body;
+        }
+    }
+    EXPECT_EQ(get(job).status, 200) << "a refused DELETE deletes nothing";
+}
+
 TEST_F(Routes, answer_head_as_get_without_the_content) {
     for (const auto& [path, methods] : methods_of_the_routes(job)) {
         if (!methods.contains("GET")) continue;
@@ -121,8 +135,9 @@ TEST(Documentation, explains_every_setting_and_tells_its_default) {
     ASSERT_TRUE(file);
     std::stringstream text;
     text << file.rdbuf();
-    for (const auto& [name, meaning] : describe_settings()) {
-        EXPECT_NE(text.str().find("| `" + name + "` |"), std::string::npos) << name << ": " << meaning;
+    for (const SettingDescription& setting : describe_settings()) {
+        EXPECT_NE(text.str().find("| `" + setting.name + "` |"), std::string::npos)
+            << setting.name << ": " << setting.meaning;
     }
     std::istringstream defaults(print_config({}));
     for (std::string line; std::getline(defaults, line);) {

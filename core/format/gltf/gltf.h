@@ -26,7 +26,6 @@ bool is_glb(ByteView bytes);
 Scene read_gltf(ByteView bytes, const Resources& resources, const ReadLimits& limits, const Watch& watch);
 
 // One file that holds everything, images too. options.format is not looked at.
-// Throws option_conflict for Instancing::gpu.
 WrittenAsset write_glb(const Scene& scene, const WriteOptions& options, const Watch& watch);
 
 struct GltfFiles {

@@ -207,8 +207,6 @@ class DocumentWriter {
 
 WrittenDocument write_document(const Scene& scene, const WriteOptions& options, Images images,
                                const Watch& watch) {
-    require(options.instancing != Instancing::gpu, ErrorCode::option_conflict, "instancing",
-            "instancing=gpu is not available yet; it may be auto, nodes or expand");
     std::vector<Warning> warnings;
     std::optional<Scene> changed;
     if (dynamic_cast<const GltfDocument*>(scene.source.get()) == nullptr)

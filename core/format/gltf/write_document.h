@@ -21,7 +21,6 @@ struct WrittenDocument {
     std::vector<Warning> warnings;
 };
 
-// Throws option_conflict for Instancing::gpu.
 WrittenDocument write_document(const Scene& scene, const WriteOptions& options, Images images,
                                const Watch& watch);
 

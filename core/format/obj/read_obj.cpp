@@ -15,8 +15,10 @@ Scene read_obj(ByteView bytes, const Resources& resources, const ReadLimits& lim
     const std::string converted = is_utf16(bytes) ? utf8_from_utf16(bytes) : std::string();
     const std::string_view text = converted.empty() ? as_text(bytes) : converted;
     ObjFile file = parse_obj(text, limits, watch.part(0, 0.6));
-    require(!file.face_ends.empty(), ErrorCode::asset_malformed, "",
-            "the OBJ has no faces ({} vertices): there is nothing to simplify", file.positions.size());
+    require(!file.face_ends.empty() || file.positions.empty(), ErrorCode::asset_unsupported, "",
+            "the OBJ has no faces ({} vertices): points, lines and curves alone are not read",
+            file.positions.size());
+    require(!file.face_ends.empty(), ErrorCode::asset_malformed, "", "the OBJ has no faces and no vertices");
     Scene scene;
     scene.warnings = std::move(file.warnings);
     read_materials(file, resources, limits, scene);

@@ -98,6 +98,20 @@ void add_slots(const PlyBody& body, size_t materials, Mesh& mesh) {
     }
 }
 
+void require_triangles(const PlyHeader& header, const PlyBody& body) {
+    if (!body.triangles.empty()) return;
+    const size_t vertices = body.positions.size();
+    const bool has_faces =
+        std::any_of(header.elements.begin(), header.elements.end(), [](const PlyElement& element) {
+            return element.count > 0 && (element.name == "face" || element.name == "tristrips");
+        });
+    require(vertices == 0 || has_faces, ErrorCode::asset_unsupported, "",
+            "the PLY has no faces ({} vertices): point clouds are not read", vertices);
+    fail(ErrorCode::asset_malformed, "",
+         fmt::format("the PLY has no triangles ({} vertices){}", vertices,
+                     has_faces ? ": its faces have fewer than 3 corners" : ""));
+}
+
 }  // namespace
 
 Scene read_ply(ByteView bytes, std::string_view file_name, const Resources& resources,
@@ -105,8 +119,7 @@ Scene read_ply(ByteView bytes, std::string_view file_name, const Resources& reso
     const PlyHeader header = parse_ply_header(bytes);
     WarningTally tally;
     PlyBody body = read_ply_body(bytes, header, limits, watch, tally);
-    require(!body.triangles.empty(), ErrorCode::asset_malformed, "",
-            "the PLY has no triangles ({} vertices): point clouds are not read", body.positions.size());
+    require_triangles(header, body);
     Scene scene;
     Mesh mesh;
     mesh.name = stem(file_name);

@@ -47,6 +47,20 @@ TEST(Asset, is_read_with_resources_that_came_as_parts) {
     EXPECT_EQ(asset.scene.images.size(), 1U);
 }
 
+TEST(Asset, names_the_parts_that_nothing_in_it_uses) {
+    const std::vector<UploadedFile> parts = {{"m.mtl", "", as_bytes(library)},
+                                             {"red.png", "", as_bytes("png")},
+                                             {"docs/README.md", "", as_bytes("hello")}};
+    const Bytes zip = zipped({{"a.obj", triangle}, {"notes.txt", "of a zip, which may hold anything"}});
+    for (const Bytes& asset : {to_bytes(triangle), zip}) {
+        const std::vector<Warning> warnings = read(asset, "", "", parts).scene.warnings;
+        ASSERT_EQ(warnings.size(), 1U);
+        EXPECT_EQ(warnings[0].code, "resource.unused");
+        EXPECT_EQ(warnings[0].where, "docs/README.md");
+        EXPECT_THAT(warnings[0].message, HasSubstr("\"docs/README.md\""));
+    }
+}
+
 TEST(Asset, loses_triangles_without_area_and_second_ones_and_says_so) {
     const Scene scene =
         read(to_bytes("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 2 3 1\nf 1 1 2\nf 1 3 4\n")).scene;
@@ -107,8 +121,7 @@ TEST(Asset, leaves_as_a_zip_exactly_when_files_go_along) {
 TEST(Asset, refuses_instancing_that_its_format_cannot_hold) {
     const ReadAsset asset = read(to_bytes(triangle));
     for (const auto& [format, instancing] :
-         {std::pair(Format::obj, Instancing::nodes), std::pair(Format::obj, Instancing::gpu),
-          std::pair(Format::iobj, Instancing::expand), std::pair(Format::iobj, Instancing::gpu)}) {
+         {std::pair(Format::obj, Instancing::nodes), std::pair(Format::iobj, Instancing::expand)}) {
         try {
             write_asset(asset.scene, {.format = format, .instancing = instancing}, Watch{});
             ADD_FAILURE() << id(format);

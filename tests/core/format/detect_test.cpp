@@ -48,6 +48,21 @@ TEST(Detect, recognises_every_format_by_its_content) {
               Format::stl);
 }
 
+TEST(Detect, recognises_an_obj_with_words_that_it_does_not_know) {
+    EXPECT_EQ(detected("# subdivision\n" + triangle + "t crease 2/1/0 1 2 4.5\n"), Format::obj);
+    EXPECT_EQ(detected("ctech cubic\nv -1 0 .5\nvn 0 1 0\n"), Format::obj);
+    EXPECT_EQ(detected("tool 7\nv 0 0 0 1\nf 1/1/1 -2//3 3\n"), Format::obj);
+    for (const char* other : {"v 0 0 0\nx 1 2 3\n", "about v\nv of a vertex\nf of a face\n", "t 1 2\n",
+                              "hello\nv 1 2\nf 1 2\nvn 1 2\n", "f a/b c d\nf 1 2 x\n"}) {
+        EXPECT_EQ(refused(other).code(), ErrorCode::asset_unsupported) << other;
+    }
+}
+
+TEST(Detect, says_how_to_tell_a_format_that_its_content_does_not) {
+    EXPECT_THAT(refused("nothing known").message(), HasSubstr("Content-Type"));
+    EXPECT_THAT(refused("nothing known").message(), HasSubstr("model/obj"));
+}
+
 TEST(Detect, takes_media_types_that_say_nothing_as_not_given) {
     for (const char* type :
          {"", "application/octet-stream", "application/x-www-form-urlencoded", "text/plain; charset=utf-8"}) {
@@ -95,6 +110,8 @@ TEST(Detect, names_what_is_not_read) {
         {"b3dm\x01\0\0\0"sv, "b3dm"},
         {"glTF\x01\0\0\0\x14\0\0\0"sv, "glTF 1.0"},
         {R"({"asset":{"version":"1.0"}})", "glTF 1.0"},
+        {R"({"asset":{"version":"3.0"}})", "asset.version \"3.0\" (later than glTF 2.0)"},
+        {R"({"asset":{"version":"20"}})", "asset.version \"20\" (no version of glTF)"},
         {"Kaydara FBX Binary  \0"sv, "FBX"},
         {"<?xml version=\"1.0\"?>\n<COLLADA xmlns=\"\">", "COLLADA"},
         {"MM\x0c\0\0\0......"sv, "3DS"},

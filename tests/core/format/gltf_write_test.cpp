@@ -242,11 +242,6 @@ TEST(GltfWrite, takes_the_buffer_views_of_metadata_along) {
     EXPECT_EQ(view["byteOffset"].get<size_t>() % 8, 0U);
 }
 
-TEST(GltfWrite, refuses_what_is_not_there_yet) {
-    EXPECT_THAT(test::error_of([] { write_glb(one_instance({}), {.instancing = Instancing::gpu}, {}); }),
-                ::testing::StartsWith("option.conflict instancing"));
-}
-
 }  // namespace
 
 }  // namespace coppice

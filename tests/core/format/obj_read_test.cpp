@@ -160,7 +160,13 @@ TEST(ObjRead, refuses_indices_that_are_out_of_range) {
 
 TEST(ObjRead, refuses_a_face_of_two_corners_and_a_file_without_faces) {
     EXPECT_EQ(refused(square + "f 1 2\n").code(), ErrorCode::asset_malformed);
-    EXPECT_THAT(refused(square).message(), HasSubstr("no faces"));
+    EXPECT_EQ(refused("o empty\n").code(), ErrorCode::asset_malformed);
+    for (const char* elements : {"", "l 1 2 3\n", "p 1 2\n"}) {
+        const Error error = refused(square + elements);
+        EXPECT_EQ(error.code(), ErrorCode::asset_unsupported) << elements;
+        EXPECT_EQ(error.message(),
+                  "the OBJ has no faces (4 vertices): points, lines and curves alone are not read");
+    }
 }
 
 TEST(ObjRead, refuses_more_than_the_limits) {

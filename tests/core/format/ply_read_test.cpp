@@ -120,8 +120,15 @@ TEST(PlyRead, drops_vertices_that_no_face_uses) {
 }
 
 TEST(PlyRead, refuses_point_clouds) {
-    EXPECT_THAT(refused(ascii("element vertex 4\n" + xyz, square_vertices)).message(),
-                HasSubstr("no triangles"));
+    const Error cloud = refused(ascii("element vertex 4\n" + xyz, square_vertices));
+    EXPECT_EQ(cloud.code(), ErrorCode::asset_unsupported);
+    EXPECT_THAT(cloud.message(), HasSubstr("no faces (4 vertices): point clouds are not read"));
+    EXPECT_EQ(refused(square("property list uchar int vertex_indices\n", "", 0)).code(),
+              ErrorCode::asset_unsupported);
+    EXPECT_EQ(refused(ascii("element vertex 0\n" + xyz, "")).code(), ErrorCode::asset_malformed);
+    const Error edges = refused(square("property list uchar int vertex_indices\n", "2 0 1\n", 1));
+    EXPECT_EQ(edges.code(), ErrorCode::asset_malformed);
+    EXPECT_THAT(edges.message(), HasSubstr("no triangles (4 vertices): its faces have fewer than 3 corners"));
 }
 
 TEST(PlyRead, refuses_counts_that_the_bytes_cannot_hold_before_it_allocates) {

@@ -69,7 +69,7 @@ TEST(Optimize, stores_a_copy_per_instance_where_asked_to_expand) {
 
 TEST(Optimize, refuses_an_instancing_that_the_chosen_format_cannot_express_before_it_works) {
     try {
-        optimize(cad(Format::iobj).upload(), {.instancing = Instancing::gpu}, {}, {});
+        optimize(cad(Format::iobj).upload(), {.instancing = Instancing::expand}, {}, {});
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::option_conflict);

@@ -142,9 +142,24 @@ TEST(Validate, refuses_what_excludes_each_other) {
     EXPECT_EQ(refused({.ratio = 0.5, .triangles = 10}), ErrorCode::option_conflict);
     EXPECT_EQ(refused({.triangles = 10, .parameters = {{"stop", std::string("vertices")}}}),
               ErrorCode::option_conflict);
-    EXPECT_EQ(refused({.format = Format::obj, .instancing = Instancing::gpu}), ErrorCode::option_conflict);
+    EXPECT_EQ(refused({.format = Format::obj, .instancing = Instancing::nodes}), ErrorCode::option_conflict);
     EXPECT_EQ(refused({.format = Format::iobj, .instancing = Instancing::expand}),
               ErrorCode::option_conflict);
+}
+
+TEST(Validate, refuses_a_parameter_of_another_mode) {
+    try {
+        validate({.parameters = {{"threshold", 0.1}}});
+        ADD_FAILURE() << "was taken";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::option_conflict);
+        EXPECT_EQ(error.where(), "parameters.threshold");
+        EXPECT_EQ(error.message(),
+                  "parameters.threshold belongs to parameters.mode=faithful, and the mode is full");
+    }
+    EXPECT_EQ(refused({.parameters = {{"mode", std::string("full")}, {"threshold", 0.1}}}),
+              ErrorCode::option_conflict);
+    EXPECT_NO_THROW(validate({.parameters = {{"mode", std::string("faithful")}, {"threshold", 0.1}}}));
 }
 
 TEST(Validate, takes_what_is_right) {
