@@ -76,10 +76,7 @@ Setting flag(std::string_view name, std::string_view help, Member member) {
             [=](const Config& config) { return member(const_cast<Config&>(config)) ? "true" : "false"; }};
 }
 
-#define COPPICE_MEMBER(member)     \
-    [](Config & config) -> auto& { \
-        return config.member;      \
-    }
+#define COPPICE_MEMBER(member) ([](Config & config) -> auto& { return config.member; })
 
 std::vector<Setting> make_settings() {
     constexpr uint64_t many = 1'000'000'000;
@@ -250,7 +247,7 @@ std::vector<SettingDescription> describe_settings() {
     std::vector<SettingDescription> described;
     for (const Setting& setting : make_settings()) {
         const std::string value = setting.print({});
-        const bool is_text = value.starts_with('"');
+        const bool is_text = value.starts_with('"') || value.starts_with('\'');
         described.push_back({std::string(setting.name), std::string(setting.help),
                              is_text ? value.substr(1, value.size() - 2) : value});
     }

@@ -5,9 +5,13 @@
 namespace coppice {
 
 Route compare_route(Services& services) {
-    return {"POST", "/v1/compare", [&services](Request& request, Response& response) {
-                submit_and_wait(JobKind::compare, request, response, services);
-            }};
+    return {.method = "POST",
+            .pattern = "/v1/compare",
+            .handler =
+                [&services](Request& request, Response& response) {
+                    submit_and_wait(JobKind::compare, request, response, services);
+                },
+            .takes_options = true};
 }
 
 }  // namespace coppice

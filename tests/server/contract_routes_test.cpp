@@ -1,5 +1,6 @@
 // The routes and the contract hold the same operations, and take no method but those; and the documentation
 // holds every setting.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,10 +73,10 @@ class Routes : public test::ServiceTest {
 
 TEST_F(Routes, that_take_no_options_refuse_them_by_name) {
     const std::set<std::string> with_options = {"POST /v1/optimize", "POST /v1/jobs", "GET /v1/jobs",
-                                                "POST /v1/inspect"};
+                                                "POST /v1/inspect", "POST /v1/compare"};
     for (const auto& [path, methods] : methods_of_the_routes(job)) {
         for (const std::string& method : methods) {
-            if (with_options.contains(method + " " + path)) continue;
+            if (with_options.contains(fmt::format("{} {}", method, path))) continue;
             const test::Answer answer = test::request(port, method, path + "?colour=red");
             EXPECT_THAT(answer, test::is_problem(400, "option.unknown")) << method << " " << path;
             EXPECT_EQ(test::json_member(answer.body, "where"), "\"colour\"") << answer.body;

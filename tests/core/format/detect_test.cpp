@@ -53,7 +53,7 @@ TEST(Detect, recognises_an_obj_with_words_that_it_does_not_know) {
     EXPECT_EQ(detected("ctech cubic\nv -1 0 .5\nvn 0 1 0\n"), Format::obj);
     EXPECT_EQ(detected("tool 7\nv 0 0 0 1\nf 1/1/1 -2//3 3\n"), Format::obj);
     for (const char* other : {"v 0 0 0\nx 1 2 3\n", "about v\nv of a vertex\nf of a face\n", "t 1 2\n",
-                              "hello\nv 1 2\nf 1 2\nvn 1 2\n", "f a/b c d\nf 1 2 x\n"}) {
+                              "hello\nv 1 2\nf 1 2\nvn 1 2\n", "hello\nf a/b c d\nf 1 2 x\n"}) {
         EXPECT_EQ(refused(other).code(), ErrorCode::asset_unsupported) << other;
     }
 }
