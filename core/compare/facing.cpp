@@ -12,7 +12,10 @@ namespace coppice {
 namespace {
 
 constexpr double as_near = 1e-6;  // of the diagonal
-constexpr std::array<std::array<double, 3>, 4> places = {{{1.0 / 3, 1.0 / 3, 1.0 / 3},
+constexpr std::array<std::array<double, 3>, 7> places = {{{1, 0, 0},
+                                                          {0, 1, 0},
+                                                          {0, 0, 1},
+                                                          {1.0 / 3, 1.0 / 3, 1.0 / 3},
                                                           {2.0 / 3, 1.0 / 6, 1.0 / 6},
                                                           {1.0 / 6, 2.0 / 3, 1.0 / 6},
                                                           {1.0 / 6, 1.0 / 6, 2.0 / 3}}};

@@ -173,6 +173,7 @@ test('a comparison tells how far one asset is from another', async () => {
     );
     const { body, answer } = await ask('post', '/v1/compare', 200, both);
     assert.equal(body.measured, 'meshes');
+    assert.equal(body.surface.flipped_triangles, 0);
     assert.ok(body.surface.surface_distance.symmetric.largest_diagonal_fraction < 0.05);
     const { body: same } = await ask(
         'post', '/v1/compare', 200, form({ name: 'candidate', filename: 'b.glb', bytes: scene }),
