@@ -19,7 +19,7 @@ double area(const CollapseMesh& mesh, uint32_t triangle) {
 
 // Area of the triangles that use each wedge.
 std::vector<double> wedge_areas(const CollapseMesh& mesh, const Watch& watch) {
-    std::vector<double> areas(mesh.wedge_count(), 0.0);
+    std::vector<double> areas = watched_vector<double>(mesh.wedge_count(), watch);
     watched_loop(mesh.triangle_count(), watch, [&](size_t i) {
         const auto t = static_cast<uint32_t>(i);
         if (!mesh.is_live_triangle(t)) return;
@@ -87,8 +87,8 @@ AttributeClouds::AttributeClouds(const CollapseMesh& mesh, const Mesh& source, c
         taken.push_back(i);
     }
     if (taken.empty()) return;
-    values_.resize(size_t{mesh.wedge_count()} * value_stride_);
-    clouds_.resize(size_t{mesh.wedge_count()} * cloud_stride_);
+    watched_resize(values_, size_t{mesh.wedge_count()} * value_stride_, watch);
+    watched_resize(clouds_, size_t{mesh.wedge_count()} * cloud_stride_, watch);
     const std::vector<double> areas = wedge_areas(mesh, watch);
     for (size_t i = 0; i < taken.size(); ++i) {
         fill(mesh, source, taken[i], channels_[i], scale_of(mesh, source, taken[i], scales, watch), areas,
@@ -122,19 +122,6 @@ void AttributeClouds::fill(const CollapseMesh& mesh, const Mesh& source, size_t 
         cloud[0] = weight;
         cloud[n + 1] = weight * squared;
     });
-}
-
-double AttributeClouds::squared_error(uint32_t from, uint32_t at, uint32_t channel) const {
-    const uint32_t n = channels_[channel].components;
-    const double* value = values_.data() + at * value_stride_ + channels_[channel].value_offset;
-    const double* cloud = clouds_.data() + cloud_at(from, channel);
-    double squared = 0, product = 0;
-    for (uint32_t k = 0; k < n; ++k) {
-        squared += value[k] * value[k];
-        product += value[k] * cloud[1 + k];
-    }
-    const double sum = cloud[0] * squared - 2 * product + cloud[n + 1];
-    return sum > 0 ? sum : 0;  // rounding
 }
 
 double AttributeClouds::squared_error(uint32_t from, uint32_t at) const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/watched_loop.h"
 #include "core/simplify/collapse_mesh.h"
 
 namespace coppice {
@@ -12,10 +13,12 @@ namespace coppice {
 class BoundsGuard {
   public:
     // tolerance in mesh units: how far each side of the box may come in.
-    BoundsGuard(const CollapseMesh& mesh, double tolerance) : sides_(mesh.vertex_count(), 0) {
+    BoundsGuard(const CollapseMesh& mesh, double tolerance, const Watch& watch = {})
+        : sides_(mesh.vertex_count(), 0) {
         const Bounds& box = mesh.box();
-        for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-            if (!mesh.is_live_vertex(v)) continue;
+        watched_loop(mesh.vertex_count(), watch, [&](size_t i) {
+            const auto v = static_cast<uint32_t>(i);
+            if (!mesh.is_live_vertex(v)) return;
             const Vec3d p = mesh.position(v);
             const std::array<double, 6> distance = {p.x - box.min.x, p.y - box.min.y, p.z - box.min.z,
                                                     box.max.x - p.x, box.max.y - p.y, box.max.z - p.z};
@@ -24,7 +27,7 @@ class BoundsGuard {
                 sides_[v] = static_cast<uint8_t>(sides_[v] | (1U << side));
                 ++left_[side];
             }
-        }
+        });
     }
 
     bool may_remove(uint32_t vertex) const {

@@ -38,7 +38,8 @@ double angle(Vec3d from, Vec3d a, Vec3d b) {
 // Baerentzen and Aanaes 2005, which tells inside from outside at any edge): unit, or zero where sheets lie
 // back to back.
 std::vector<Vec3f> facing(const CollapseMesh& mesh, std::span<const Vec3f> normals, const Watch& watch) {
-    std::vector<Vec3f> result(mesh.vertex_count());
+    std::vector<Vec3f> result = watched_vector<Vec3f>(mesh.vertex_count(), watch);
+    WatchedSteps steps(watch);
     watched_loop(mesh.vertex_count(), watch, [&](size_t v) {
         const auto vertex = static_cast<uint32_t>(v);
         Vec3d sum;
@@ -47,6 +48,7 @@ std::vector<Vec3f> facing(const CollapseMesh& mesh, std::span<const Vec3f> norma
             const double weight =
                 angle(mesh.position(vertex), mesh.position(mesh.corner_vertex(CollapseMesh::next_corner(c))),
                       mesh.position(mesh.corner_vertex(CollapseMesh::previous_corner(c))));
+            steps.add(1);
             sum = sum + to_double(normals[c / 3]) * weight;
             angles += weight;
         }
@@ -60,7 +62,7 @@ std::vector<Vec3f> facing(const CollapseMesh& mesh, std::span<const Vec3f> norma
 CollapseRules::CollapseRules(const CollapseMesh& mesh, std::vector<VertexKind> kinds, const Watch& watch)
     : mesh_(mesh),
       kinds_(std::move(kinds)),
-      first_normals_(mesh.triangle_count()),
+      first_normals_(watched_vector<Vec3f>(mesh.triangle_count(), watch)),
       around_removed_(mesh.vertex_count()),
       around_kept_(mesh.vertex_count()) {
     watched_loop(mesh.triangle_count(), watch, [&](size_t i) {

@@ -26,7 +26,8 @@ Features features_for(const CollapseMesh& mesh, const EndPointOptions& options, 
 
 EndPointCollapse::EndPointCollapse(const Mesh& source, const Target& target, const EndPointOptions& options,
                                    const Watch& watch)
-    : source_(source),
+    : steps_(watch),
+      source_(source),
       target_(target),
       max_geometric_error_(options.max_geometric_error),
       mesh_(source, watch),
@@ -34,12 +35,12 @@ EndPointCollapse::EndPointCollapse(const Mesh& source, const Target& target, con
       clouds_(mesh_, source, options.scales, watch),
       errors_(mesh_, features_.edges, clouds_, options.weights, InstanceMetric(options.instances), watch),
       rules_(mesh_, features_.kinds, watch),
-      bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal()),
-      lines_(mesh_, features_, line_tolerance_of_diagonal * mesh_.box().diagonal()),
+      bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
+      lines_(mesh_, features_, line_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
       uvs_(mesh_, source, watch),
-      deviation_(mesh_),
+      deviation_(mesh_, watch),
       wedge_map_(mesh_, clouds_),
-      around_(mesh_.vertex_count()),
+      around_(mesh_.vertex_count(), watch),
       first_triangles_(mesh_.live_triangles()),
       first_vertices_(mesh_.live_vertices()) {
     watch.check();
@@ -58,6 +59,7 @@ double EndPointCollapse::fraction() const {
 }
 
 std::optional<double> EndPointCollapse::cost_around(uint32_t removed, uint32_t kept) {
+    steps_.add(mesh_.valence(removed));
     if (!rules_.kinds_allow(removed, kept, around_) || !wedge_map_.find(removed, kept)) {
         ++refusals_[static_cast<size_t>(Refusal::locked)];
         return {};
@@ -105,7 +107,9 @@ Refusal EndPointCollapse::check(uint32_t removed, uint32_t kept) {
 }
 
 Refusal EndPointCollapse::try_collapse(uint32_t removed, uint32_t kept) {
+    const uint64_t searched = rules_.searched();
     const Refusal refusal = check(removed, kept);
+    steps_.add(size_t{8} * mesh_.valence(removed) + (rules_.searched() - searched));  // each rule looks again
     if (refusal != Refusal::none) {
         ++refusals_[static_cast<size_t>(refusal)];
         return refusal;

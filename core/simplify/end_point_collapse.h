@@ -12,7 +12,7 @@
 #include <optional>
 #include <span>
 
-#include "core/base/watch.h"
+#include "core/base/watched_loop.h"
 #include "core/simplify/algorithm.h"
 #include "core/simplify/bounds_guard.h"
 #include "core/simplify/collapse_mesh.h"
@@ -48,7 +48,8 @@ struct Candidate {
 
 class EndPointCollapse {
   public:
-    // Keeps references to the source and the target.
+    // Keeps references to the source and the target, and a copy of the watch, which is looked at by the work
+    // that candidates and collapses cost.
     EndPointCollapse(const Mesh& source, const Target& target, const EndPointOptions& options,
                      const Watch& watch);
     EndPointCollapse(const EndPointCollapse&) = delete;
@@ -76,6 +77,7 @@ class EndPointCollapse {
     std::optional<double> cost_around(uint32_t removed, uint32_t kept);
     Refusal check(uint32_t removed, uint32_t kept);
 
+    WatchedSteps steps_;
     const Mesh& source_;
     const Target& target_;
     std::optional<double> max_geometric_error_;

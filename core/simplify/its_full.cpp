@@ -17,9 +17,9 @@ class CheapestFirst {
           mesh_(work.mesh()),
           watch_(watch),
           heap_(mesh_.vertex_count()),
-          candidates_(mesh_.vertex_count()),
+          candidates_(watched_vector<Candidate>(mesh_.vertex_count(), watch)),
           skipped_(mesh_.vertex_count()),
-          around_(mesh_.vertex_count()) {}
+          around_(mesh_.vertex_count(), watch) {}
 
     // A collapse can make possible what was refused two rings away. So there is another round, while they
     // pay.
@@ -35,7 +35,6 @@ class CheapestFirst {
   private:
     void queue_all() {
         for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
-            if (v % 1024 == 0) watch_.check();
             if (mesh_.is_live_vertex(v)) queue(v, work_.next_candidate(v));
         }
     }
@@ -43,7 +42,6 @@ class CheapestFirst {
     uint64_t drain() {
         uint64_t collapses = 0;
         for (uint64_t step = 0; !heap_.empty() && !work_.done(); ++step) {
-            if (step % 16 == 0) watch_.check();
             if (step % 512 == 0) watch_.report(work_.fraction());
             collapses += try_cheapest();
         }
@@ -54,7 +52,10 @@ class CheapestFirst {
         const uint32_t removed = heap_.top();
         const Candidate candidate = candidates_[removed];
         if (is_hub(candidate.kept) && has_become_dearer(removed, candidate)) return false;
-        gather_ring(removed);
+        // What stays has at most the triangles of both.
+        const bool becomes_hub =
+            mesh_.valence(removed) + mesh_.valence(candidate.kept) > largest_removable_valence;
+        if (becomes_hub) gather_ring(removed);
         if (work_.try_collapse(removed, candidate.kept) != Refusal::none) {
             queue(removed, work_.next_candidate(removed, candidate));
             skipped_[removed] = true;

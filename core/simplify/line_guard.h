@@ -17,7 +17,7 @@ namespace coppice {
 class LineGuard {
   public:
     // tolerance in mesh units.
-    LineGuard(const CollapseMesh& mesh, const Features& features, double tolerance);
+    LineGuard(const CollapseMesh& mesh, const Features& features, double tolerance, const Watch& watch = {});
 
     // Whether the line of `removed`, drawn straight from `kept` to its other neighbour, is near enough. True
     // for vertices of no line.

@@ -22,8 +22,8 @@ UnifiedError::UnifiedError(const CollapseMesh& mesh, std::span<const FeatureEdge
     : mesh_(mesh),
       clouds_(clouds),
       weights_(weights),
-      geometry_(mesh.vertex_count()),
-      spread_(size_t{mesh.vertex_count()} * clouds.channels()) {
+      geometry_(watched_vector<Geometry>(mesh.vertex_count(), watch)),
+      spread_(watched_vector<Spread>(size_t{mesh.vertex_count()} * clouds.channels(), watch)) {
     add_planes(metric, watch);
     if (weights == PlaneWeights::area) add_constraints(features, metric, watch);
     watched_loop(mesh.vertex_count(), watch, [&](size_t i) {

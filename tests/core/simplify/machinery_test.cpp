@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "core/base/watched_loop.h"
 #include "core/simplify/attribute_cloud.h"
 #include "core/simplify/bounds_guard.h"
 #include "core/simplify/collapse_mesh.h"
@@ -272,6 +273,13 @@ TEST(CollapseRules, search_no_hub_for_another_hub) {
         EXPECT_EQ(rules.check(removed, 0), Refusal::topology) << "not known, and too long to find out";
     }
     EXPECT_LT(rules.searched(), 20 * slices);
+}
+
+TEST(Features, are_found_with_looks_at_the_stop_amid_a_vertex_of_very_many_triangles) {
+    const CollapseMesh collapsing(bipyramid(4 * watched_stride));
+    size_t checks = 0;
+    find_features(collapsing, {.checked = [&checks] { ++checks; }});
+    EXPECT_GE(checks, 2U * 3U * 4U) << "two hubs, whose triangles are looked at three times, in four strides";
 }
 
 // Vertex 0 lies on the edge from 1 to 2, in a triangle without area; 3 is on one side of it, 4 on the other.
