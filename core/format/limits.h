@@ -19,7 +19,7 @@ struct ReadLimits {
     uint32_t meshes_and_primitives = 65'536;
     uint32_t accessors = 200'000;  // and as many buffer views
     uint32_t objects = 200'000;    // of all other kinds together, from scenes to the channels of animations
-    uint32_t attributes = 256;     // of a mesh, over all its primitives and morph targets
+    uint32_t attributes = 1024;    // of a mesh, over all its primitives and morph targets
     // Of all accessors as they are stored, of all attributes as floats, and of what Draco decodes to.
     uint64_t attribute_bytes = 1ULL << 30;
     uint32_t images = 512;

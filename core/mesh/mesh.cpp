@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/watched_loop.h"
+
 namespace coppice {
 
 const Attribute* Mesh::find_attribute(std::string_view attribute_name) const {
@@ -28,6 +30,31 @@ bool is_consistent(const Mesh& mesh) {
            std::all_of(mesh.slots.begin(), mesh.slots.end(), [&](const MaterialSlot& slot) {
                return slot.has_attribute.empty() || slot.has_attribute.size() == mesh.attributes.size();
            });
+}
+
+namespace {
+
+Attribute copy_of(const Attribute& from, const Watch& watch) {
+    return {from.name, from.components, from.storage, watched_copy(from.values, watch)};
+}
+
+}  // namespace
+
+Mesh without_triangles(const Mesh& from, const Watch& watch) {
+    Mesh mesh;
+    mesh.name = from.name;
+    mesh.source_mesh = from.source_mesh;
+    mesh.positions = watched_copy(from.positions, watch);
+    mesh.position_storage = from.position_storage;
+    mesh.wedge_vertex = watched_copy(from.wedge_vertex, watch);
+    for (const Attribute& attribute : from.attributes) mesh.attributes.push_back(copy_of(attribute, watch));
+    for (const MorphTarget& target : from.morph_targets) {
+        mesh.morph_targets.emplace_back();
+        for (const Attribute& delta : target.deltas)
+            mesh.morph_targets.back().deltas.push_back(copy_of(delta, watch));
+    }
+    mesh.slots = from.slots;
+    return mesh;
 }
 
 }  // namespace coppice

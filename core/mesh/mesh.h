@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/watch.h"
 #include "core/mesh/vec.h"
 
 namespace coppice {
@@ -87,6 +88,9 @@ struct Mesh {
     // Null when there is none of that name.
     const Attribute* find_attribute(std::string_view attribute_name) const;
 };
+
+// A copy of everything else: of what may be very large, looking at the watch in between.
+Mesh without_triangles(const Mesh& from, const Watch& watch);
 
 // True when every index is in range and every array has the length that the others imply. For asserts and
 // tests.

@@ -36,8 +36,8 @@ template <typename Hash, typename Equal>
 std::vector<uint32_t> group_equal(size_t count, Hash hash, Equal equal, std::vector<uint32_t>& first_of_group,
                                   const Watch& watch) {
     const size_t size = std::bit_ceil(count + count / 2 + 1);
-    std::vector<uint32_t> table(size, none);
-    std::vector<uint32_t> group(count);
+    std::vector<uint32_t> table = watched_vector(size, watch, none);
+    std::vector<uint32_t> group = watched_vector<uint32_t>(count, watch);
     const uint64_t seed = std::random_device()();
     first_of_group.clear();
     watched_loop(count, watch, [&](size_t i) {
@@ -66,7 +66,7 @@ std::vector<Attribute*> streams(Mesh& mesh) {
 template <typename T>
 void keep_items(std::vector<T>& values, size_t components, const std::vector<uint32_t>& kept,
                 const Watch& watch) {
-    std::vector<T> result(kept.size() * components);
+    std::vector<T> result = watched_vector<T>(kept.size() * components, watch);
     watched_loop(kept.size(), watch, [&](size_t i) {
         std::copy_n(values.data() + kept[i] * components, components, result.data() + i * components);
     });
@@ -95,13 +95,14 @@ void weld_vertices(Mesh& mesh, const Watch& watch) {
         },
         [&](size_t a, size_t b) { return positions[a] == positions[b]; }, first, watch);
     keep_items(mesh.positions, 1, first, watch);
-    for (uint32_t& vertex : mesh.wedge_vertex) vertex = group[vertex];
+    watched_loop(mesh.wedge_count(), watch,
+                 [&](size_t w) { mesh.wedge_vertex[w] = group[mesh.wedge_vertex[w]]; });
 }
 
 // For each wedge the lowest slot of its class: slots with equal attribute sets are one class, so that wedges
 // are only merged when whoever uses them agrees on which attributes exist. Wedges that no triangle uses are
 // class none.
-std::vector<uint32_t> slot_class_of_wedges(const Mesh& mesh) {
+std::vector<uint32_t> slot_class_of_wedges(const Mesh& mesh, const Watch& watch) {
     // By attribute set: the lowest slot. Not hashed: a file could be made whose sets all have one hash.
     std::map<std::vector<bool>, uint32_t> classes;
     std::vector<uint32_t> slot_class;
@@ -109,16 +110,16 @@ std::vector<uint32_t> slot_class_of_wedges(const Mesh& mesh) {
         const auto next = static_cast<uint32_t>(slot_class.size());
         slot_class.push_back(classes.try_emplace(attribute_set(mesh, slot), next).first->second);
     }
-    std::vector<uint32_t> wedge_class(mesh.wedge_count(), none);
-    for (size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+    std::vector<uint32_t> wedge_class = watched_vector(mesh.wedge_count(), watch, none);
+    watched_loop(mesh.triangles.size(), watch, [&](size_t corner) {
         wedge_class[mesh.triangles[corner]] = slot_class[mesh.triangle_slot[corner / 3]];
-    }
+    });
     return wedge_class;
 }
 
 void weld_wedges(Mesh& mesh, const Watch& watch) {
     const std::vector<Attribute*> all = streams(mesh);
-    const std::vector<uint32_t> wedge_class = slot_class_of_wedges(mesh);
+    const std::vector<uint32_t> wedge_class = slot_class_of_wedges(mesh, watch);
     std::vector<uint32_t> first;
     const std::vector<uint32_t> group = group_equal(
         mesh.wedge_count(),
@@ -141,7 +142,8 @@ void weld_wedges(Mesh& mesh, const Watch& watch) {
         },
         first, watch);
     keep_wedges(mesh, first, watch);
-    for (uint32_t& wedge : mesh.triangles) wedge = group[wedge];
+    watched_loop(mesh.triangles.size(), watch,
+                 [&](size_t corner) { mesh.triangles[corner] = group[mesh.triangles[corner]]; });
 }
 
 // Whether a morph target moves the corners of a triangle to different sides.
@@ -204,7 +206,7 @@ size_t drop_duplicate(Mesh& mesh, const Watch& watch) {
 
 // What is used, in the old order; turns every index into the new one.
 std::vector<uint32_t> number_used(std::vector<uint32_t>& indices, size_t count, const Watch& watch) {
-    std::vector<uint32_t> number(count, none);
+    std::vector<uint32_t> number = watched_vector(count, watch, none);
     std::vector<uint32_t> used;
     watched_loop(indices.size(), watch, [&](size_t i) { number[indices[i]] = 0; });
     watched_loop(count, watch, [&](size_t i) {

@@ -55,11 +55,11 @@ Inspection inspect(const Upload& upload, const ReadLimits& limits, const Watch& 
     if (watch.stage) watch.stage("read");
     const ReadAsset read = read_asset(upload, limits, watch.part(0, 0.5));
     const Scene& scene = read.scene;
-    const std::vector<uint64_t> counts = instances_per_mesh(scene);
+    const std::vector<uint64_t> counts = instances_per_mesh(scene, watch);
 
     Inspection out;
     out.summary = summarize(scene, counts, read.format, bytes_of(upload));
-    out.bounds = scene_bounds(scene);
+    out.bounds = scene_bounds(scene, watch);
     for (size_t i = 0; i < scene.meshes.size(); ++i) {
         watch.report(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(scene.meshes.size()));
         out.meshes.push_back(inspect_mesh(scene.meshes[i], counts[i]));

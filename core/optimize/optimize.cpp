@@ -66,8 +66,8 @@ std::vector<MeshReport> mesh_reports(const Scene& scene, const Placement& placem
 
 // The input's instances, in their order, against the ones that are written.
 std::vector<InstanceMapping> map_instances(const std::vector<Instance>& before, const Scene& written,
-                                           bool flattened) {
-    const std::vector<Instance> after = flattened ? std::vector<Instance>{} : instances(written);
+                                           bool flattened, const Watch& watch) {
+    const std::vector<Instance> after = flattened ? std::vector<Instance>{} : instances(written, watch);
     std::vector<InstanceMapping> map;
     for (size_t i = 0; i < before.size(); ++i) {
         if (flattened) {
@@ -132,14 +132,14 @@ WrittenAsset write(Scene& scene, const Placement& placement, const WriteOptions&
     if (output.instancing == Instancing::expand && !flattened) scene = expand_meshes(scene);
     WrittenAsset asset = write_asset(scene, output, watch);
 
-    const std::vector<uint64_t> counts = instances_per_mesh(scene);
+    const std::vector<uint64_t> counts = instances_per_mesh(scene, watch);
     append(report.warnings, asset.warnings);
     report.output = summarize(scene, counts, output.format, asset.bytes.size());
     report.savings = savings(report.input.bytes, report.output.bytes, asset.mesh_bytes,
                              flattened ? std::vector<uint64_t>{} : counts);
     report.instancing = {.given = placement.instances.size(),
                          .unique = report.output.meshes,
-                         .map = map_instances(placement.instances, scene, flattened)};
+                         .map = map_instances(placement.instances, scene, flattened, watch)};
     return asset;
 }
 
@@ -162,7 +162,8 @@ Optimized optimize(const Upload& upload, const OptimizeOptions& options, const R
     const Format format = output_format(options, input.format);
     check_output(format, options.instancing);
 
-    const Placement placement = timed(watch, "discover", times.discover, [&] { return place(input.scene); });
+    const Placement placement =
+        timed(watch, "discover", times.discover, [&] { return place(input.scene, watch); });
     report.input = summarize(input.scene, placement.counts(), input.format, bytes_of(upload));
     append(report.warnings, std::move(input.scene.warnings));
 

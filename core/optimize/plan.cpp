@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/base/error.h"
+#include "core/base/watched_loop.h"
 
 namespace coppice {
 
 namespace {
 
-double diagonal_of(const Scene& scene, std::span<const Instance> instances) {
-    if (!instances.empty()) return scene_bounds(scene, instances).diagonal();
+double diagonal_of(const Scene& scene, std::span<const Instance> instances, const Watch& watch) {
+    if (!instances.empty()) return scene_bounds(scene, instances, watch).diagonal();
     Bounds box;
     for (const Mesh& mesh : scene.meshes) box.extend(bounds(mesh.positions));
     return box.diagonal();
@@ -25,8 +25,13 @@ bool gives_target(const Algorithm& algorithm, const OptimizeOptions& options) {
         });
 }
 
-double scale_of(const std::vector<Transform>& instances) {
-    const double largest = largest_scale(instances);
+double scale_of(std::span<const Transform> instances, const Watch& watch) {
+    double largest = 0;
+    for (size_t begin = 0; begin < instances.size(); begin += watched_stride) {
+        watch.check();
+        const size_t count = std::min(watched_stride, instances.size() - begin);
+        largest = std::max(largest, largest_scale(instances.subspan(begin, count)));
+    }
     return largest > 0 ? largest : 1;
 }
 
@@ -42,16 +47,17 @@ std::vector<uint64_t> Placement::counts() const {
     return counts;
 }
 
-Placement place(const Scene& scene) {
+Placement place(const Scene& scene, const Watch& watch) {
     Placement placement;
-    placement.instances = instances(scene);
+    placement.instances = instances(scene, watch);
     placement.of_mesh.resize(scene.meshes.size());
-    for (const Instance& instance : placement.instances) {
+    watched_loop(placement.instances.size(), watch, [&](size_t i) {
+        const Instance& instance = placement.instances[i];
         placement.of_mesh[instance.mesh].push_back(instance.world);
-    }
+    });
     for (const std::vector<Transform>& of_one : placement.of_mesh)
-        placement.scales.push_back(scale_of(of_one));
-    placement.diagonal = diagonal_of(scene, placement.instances);
+        placement.scales.push_back(scale_of(of_one, watch));
+    placement.diagonal = diagonal_of(scene, placement.instances, watch);
     return placement;
 }
 

@@ -22,7 +22,7 @@ struct Placement {
     std::vector<uint64_t> counts() const;  // instances of each unique mesh
 };
 
-Placement place(const Scene& scene);
+Placement place(const Scene& scene, const Watch& watch = {});
 
 // The target of each unique mesh. ratio and its default count each mesh's triangles (with stop=vertices: its
 // vertices), triangles is split in proportion, error is turned from a fraction of the diagonal into model

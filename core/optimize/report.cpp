@@ -28,9 +28,9 @@ uint64_t wedges_with(const Mesh& mesh, std::string_view name) {
 
 }  // namespace
 
-std::vector<uint64_t> instances_per_mesh(const Scene& scene) {
+std::vector<uint64_t> instances_per_mesh(const Scene& scene, const Watch& watch) {
     std::vector<uint64_t> counts(scene.meshes.size(), 0);
-    for (const Instance& instance : instances(scene)) ++counts[instance.mesh];
+    for (const Instance& instance : instances(scene, watch)) ++counts[instance.mesh];
     return counts;
 }
 

@@ -12,7 +12,7 @@ namespace coppice {
 // Of the asset and its resources; of the files beside it those that were read.
 uint64_t bytes_of(const Upload& upload);
 
-std::vector<uint64_t> instances_per_mesh(const Scene& scene);
+std::vector<uint64_t> instances_per_mesh(const Scene& scene, const Watch& watch = {});
 
 // How many copies of its mesh a file holds: glTF every mesh once, instanced OBJ only those that stand
 // somewhere, plain OBJ one per instance.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/base/watched_loop.h"
 
 namespace coppice {
 
@@ -45,10 +46,12 @@ std::vector<Transform> world_transforms(const Scene& scene) {
     return world;
 }
 
-std::vector<Instance> instances(const Scene& scene) {
+std::vector<Instance> instances(const Scene& scene, const Watch& watch) {
     const std::vector<Transform> world = world_transforms(scene);
     std::vector<Instance> result;
-    const auto add = [&result](const Instance& instance) {
+    WatchedSteps steps(watch);
+    const auto add = [&](const Instance& instance) {
+        steps.add(1);
         if (!instance.world.is_finite()) {
             fail(
                 ErrorCode::asset_malformed, fmt::format("nodes[{}]", instance.node),
@@ -85,9 +88,10 @@ using Reach = std::array<double, 6>;
 // How far a mesh reaches in the 26 directions of whole numbers from -1 to 1.
 class Hull {
   public:
-    explicit Hull(const Mesh& mesh) {
+    Hull(const Mesh& mesh, WatchedSteps& steps) {
         reach_.fill(-std::numeric_limits<double>::infinity());
         for (const Vec3f& position : mesh.positions) {
+            steps.add(1);
             size_t i = 0;
             for (const double x : {-position.x, 0.0F, position.x})
                 for (const double y : {-position.y, 0.0F, position.y})
@@ -136,12 +140,15 @@ Reach farthest_reach(const Transform& world, const Hull& hull) {
 
 class BoundsSearch {
   public:
-    BoundsSearch(const Scene& scene, std::span<const Instance> instances)
-        : scene_(scene), instances_(instances) {
+    BoundsSearch(const Scene& scene, std::span<const Instance> instances, const Watch& watch)
+        : scene_(scene), instances_(instances), steps_(watch) {
         std::vector<Hull> hulls;
-        for (const Mesh& mesh : scene.meshes) hulls.emplace_back(mesh);
-        for (const Instance& instance : instances)
+        for (const Mesh& mesh : scene.meshes) hulls.emplace_back(mesh, steps_);
+        farthest_.reserve(instances.size());
+        for (const Instance& instance : instances) {
+            steps_.add(1);
             farthest_.push_back(farthest_reach(instance.world, hulls[instance.mesh]));
+        }
         reach_.fill(-std::numeric_limits<double>::infinity());
     }
 
@@ -173,12 +180,15 @@ class BoundsSearch {
     }
 
     // The farthest first, so that nearly all are left out.
-    std::vector<size_t> candidates(size_t side) const {
+    std::vector<size_t> candidates(size_t side) {
         std::vector<size_t> out;
-        for (size_t i = 0; i < instances_.size(); ++i)
+        for (size_t i = 0; i < instances_.size(); ++i) {
+            steps_.add(1);
             if (may_extend(i, side)) out.push_back(i);
-        std::stable_sort(out.begin(), out.end(),
-                         [&](size_t a, size_t b) { return farthest_[a][side] > farthest_[b][side]; });
+        }
+        std::stable_sort(out.begin(), out.end(), steps_.counting([&](size_t a, size_t b) {
+            return farthest_[a][side] > farthest_[b][side];
+        }));
         return out;
     }
 
@@ -186,8 +196,15 @@ class BoundsSearch {
         const double* row = &instances_[i].world.m[4 * (side % 3)];
         const double sign = side < 3 ? -1 : 1;
         double reach = reach_[side];
-        for (const Vec3f& p : scene_.meshes[instances_[i].mesh].positions)
-            reach = std::max(reach, sign * (row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3]));
+        const std::vector<Vec3f>& positions = scene_.meshes[instances_[i].mesh].positions;
+        for (size_t begin = 0; begin < positions.size(); begin += watched_stride) {
+            const size_t end = std::min(positions.size(), begin + watched_stride);
+            steps_.add(end - begin);
+            for (size_t k = begin; k < end; ++k) {
+                const Vec3f& p = positions[k];
+                reach = std::max(reach, sign * (row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3]));
+            }
+        }
         reach_[side] = reach;
     }
 
@@ -195,21 +212,22 @@ class BoundsSearch {
 
     const Scene& scene_;
     std::span<const Instance> instances_;
+    WatchedSteps steps_;
     std::vector<Reach> farthest_;  // per instance
     Reach reach_;                  // of all that were looked at
 };
 
 }  // namespace
 
-Bounds scene_bounds(const Scene& scene, std::span<const Instance> instances) {
-    const Bounds box = instances.empty() ? Bounds{} : BoundsSearch(scene, instances).run();
+Bounds scene_bounds(const Scene& scene, std::span<const Instance> instances, const Watch& watch) {
+    const Bounds box = instances.empty() ? Bounds{} : BoundsSearch(scene, instances, watch).run();
     require(std::isfinite(box.diagonal()), ErrorCode::asset_malformed, "nodes",
             "the scene reaches farther than numbers do: its box has no finite diagonal");
     return box;
 }
 
-Bounds scene_bounds(const Scene& scene) {
-    return scene_bounds(scene, instances(scene));
+Bounds scene_bounds(const Scene& scene, const Watch& watch) {
+    return scene_bounds(scene, instances(scene, watch), watch);
 }
 
 }  // namespace coppice

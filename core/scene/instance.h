@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/watch.h"
 #include "core/scene/scene.h"
 
 namespace coppice {
@@ -22,7 +23,7 @@ std::vector<Transform> world_transforms(const Scene& scene);
 
 // Every instance that the default scene draws, in depth-first order from the roots. Throws asset_malformed
 // where one's world transform is not finite: the product of finite ones may be too large for a number.
-std::vector<Instance> instances(const Scene& scene);
+std::vector<Instance> instances(const Scene& scene, const Watch& watch = {});
 
 // How many instances instances() would give, without making them.
 uint64_t instance_count(const Scene& scene);
@@ -31,7 +32,7 @@ uint64_t instance_count(const Scene& scene);
 // one, or short of it by more than 1e-9 of the diagonal: an instance that cannot reach farther than that is
 // not looked at closer, so that thousands of instances cost little. Throws asset_malformed where the box has
 // no finite diagonal.
-Bounds scene_bounds(const Scene& scene);
-Bounds scene_bounds(const Scene& scene, std::span<const Instance> instances);
+Bounds scene_bounds(const Scene& scene, const Watch& watch = {});
+Bounds scene_bounds(const Scene& scene, std::span<const Instance> instances, const Watch& watch = {});
 
 }  // namespace coppice

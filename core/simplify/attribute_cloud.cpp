@@ -20,7 +20,7 @@ double area(const CollapseMesh& mesh, uint32_t triangle) {
 
 // Area of the triangles that use each wedge.
 std::vector<double> wedge_areas(const CollapseMesh& mesh, const Watch& watch) {
-    std::vector<double> areas(mesh.wedge_count(), 0.0);
+    std::vector<double> areas = watched_vector<double>(mesh.wedge_count(), watch);
     watched_loop(mesh.triangle_count(), watch, [&](size_t i) {
         const auto t = static_cast<uint32_t>(i);
         if (!mesh.is_live_triangle(t)) return;
@@ -88,8 +88,8 @@ AttributeClouds::AttributeClouds(const CollapseMesh& mesh, const Mesh& source, c
         taken.push_back(i);
     }
     if (taken.empty()) return;
-    values_.resize(size_t{mesh.wedge_count()} * value_stride_);
-    clouds_.resize(size_t{mesh.wedge_count()} * cloud_stride_);
+    watched_resize(values_, size_t{mesh.wedge_count()} * value_stride_, watch);
+    watched_resize(clouds_, size_t{mesh.wedge_count()} * cloud_stride_, watch);
     const std::vector<double> areas = wedge_areas(mesh, watch);
     for (size_t i = 0; i < taken.size(); ++i) {
         const double scale = scale_of(mesh, source, taken[i], scales, watch);
@@ -126,11 +126,6 @@ void AttributeClouds::fill(const CollapseMesh& mesh, const Mesh& source, size_t 
     });
 }
 
-double AttributeClouds::squared_error(uint32_t from, uint32_t at, uint32_t channel) const {
-    return squared_error(from, values_.data() + at * value_stride_ + channels_[channel].value_offset,
-                         channel);
-}
-
 double AttributeClouds::squared_error(uint32_t from, std::span<const WedgeShare> at, uint32_t channel) const {
     return squared_error(from, mean(at, channels_[channel]).data(), channel);
 }
@@ -158,18 +153,6 @@ void AttributeClouds::blend(std::span<const WedgeShare> shares, uint32_t into) {
     }
     std::copy(blended_.begin(), blended_.end(),
               values_.begin() + static_cast<std::ptrdiff_t>(into * value_stride_));
-}
-
-double AttributeClouds::squared_error(uint32_t from, const double* value, uint32_t channel) const {
-    const uint32_t n = channels_[channel].components;
-    const double* cloud = clouds_.data() + cloud_at(from, channel);
-    double squared = 0, product = 0;
-    for (uint32_t k = 0; k < n; ++k) {
-        squared += value[k] * value[k];
-        product += value[k] * cloud[1 + k];
-    }
-    const double sum = cloud[0] * squared - 2 * product + cloud[n + 1];
-    return sum > 0 ? sum : 0;  // rounding
 }
 
 double AttributeClouds::squared_error(uint32_t from, uint32_t at) const {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/watched_loop.h"
 #include "core/simplify/collapse_mesh.h"
 
 namespace coppice {
@@ -17,13 +18,14 @@ inline constexpr double bounds_tolerance_of_diagonal = 0.009;
 class BoundsGuard {
   public:
     // tolerance in mesh units: how far each side of the box may come in.
-    BoundsGuard(const CollapseMesh& mesh, double tolerance)
+    BoundsGuard(const CollapseMesh& mesh, double tolerance, const Watch& watch = {})
         : box_(mesh.box()), tolerance_(tolerance), sides_(mesh.vertex_count(), 0) {
-        for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-            if (!mesh.is_live_vertex(v)) continue;
+        watched_loop(mesh.vertex_count(), watch, [&](size_t i) {
+            const auto v = static_cast<uint32_t>(i);
+            if (!mesh.is_live_vertex(v)) return;
             sides_[v] = sides_at(mesh.position(v));
             add(sides_[v]);
-        }
+        });
     }
 
     bool may_remove(uint32_t vertex) const {

@@ -29,11 +29,11 @@ Mesh without_geometry(const Mesh& source) {
 }  // namespace
 
 CollapseMesh::CollapseMesh(const Mesh& source, const Watch& watch)
-    : corner_vertex_(source.triangles.size(), no_index),
-      after_(source.triangles.size(), no_index),
-      before_(source.triangles.size(), no_index),
-      first_corner_(source.vertex_count(), no_index),
-      valence_(source.vertex_count(), 0) {
+    : corner_vertex_(watched_vector(source.triangles.size(), watch, no_index)),
+      after_(watched_vector(source.triangles.size(), watch, no_index)),
+      before_(watched_vector(source.triangles.size(), watch, no_index)),
+      first_corner_(watched_vector(source.vertex_count(), watch, no_index)),
+      valence_(watched_vector<uint32_t>(source.vertex_count(), watch)) {
     WedgeCharts charts = wedge_charts(source, watch);
     corner_wedge_ = std::move(charts.corner_wedge);
     wedge_begin_ = std::move(charts.begin);
@@ -54,13 +54,13 @@ CollapseMesh::CollapseMesh(const Mesh& source, const Watch& watch)
     });
 
     positions_.reserve(source.vertex_count());
-    for (uint32_t v = 0; v < source.vertex_count(); ++v) {
+    watched_loop(source.vertex_count(), watch, [&](size_t v) {
         positions_.push_back(to_double(source.positions[v]));
-        if (is_live_vertex(v)) box_.extend(positions_[v]);
-    }
+        if (is_live_vertex(static_cast<uint32_t>(v))) box_.extend(positions_[v]);
+    });
     if (box_.empty()) return;
     centre_ = (box_.min + box_.max) * 0.5;
-    for (Vec3d& p : positions_) p = p - centre_;
+    watched_loop(positions_.size(), watch, [&](size_t v) { positions_[v] = positions_[v] - centre_; });
     box_.min = box_.min - centre_;
     box_.max = box_.max - centre_;
 }
@@ -123,9 +123,9 @@ void CollapseMesh::move(uint32_t vertex, Vec3d position) {
 }
 
 Mesh CollapseMesh::extract(const Mesh& source, const Watch& watch) const {
-    Mesh mesh = source;
-    mesh.triangles.clear();
-    mesh.triangle_slot.clear();
+    Mesh mesh = without_triangles(source, watch);
+    mesh.triangles.reserve(3 * size_t{live_triangles_});
+    mesh.triangle_slot.reserve(live_triangles_);
     watched_loop(triangle_count(), watch, [&](size_t t) {
         if (!is_live_triangle(static_cast<uint32_t>(t))) return;
         for (size_t corner = 3 * t; corner < 3 * t + 3; ++corner) {

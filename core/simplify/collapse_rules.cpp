@@ -19,8 +19,6 @@ constexpr double least_cosine_to_corners = 0.25;
 // A triangle is degenerate when twice its area is below this part of its longest edge squared: in single
 // precision its normal would mean nothing.
 constexpr double degenerate_aspect = 1e-6;
-// Rings longer than this are not gathered; the short rings around them are searched instead.
-constexpr uint32_t long_ring = 64;
 
 bool is_degenerate(Vec3d a, Vec3d b, Vec3d c, Vec3d normal) {
     const double longest = std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
@@ -77,7 +75,7 @@ std::vector<Vec3f> facings(const CollapseMesh& mesh, std::span<const Vec3f> norm
 CollapseRules::CollapseRules(const CollapseMesh& mesh, std::vector<VertexKind> kinds, const Watch& watch)
     : mesh_(mesh),
       kinds_(std::move(kinds)),
-      first_normals_(mesh.triangle_count()),
+      first_normals_(watched_vector<Vec3f>(mesh.triangle_count(), watch)),
       around_removed_(mesh.vertex_count()),
       around_kept_(mesh.vertex_count()) {
     watched_loop(mesh.triangle_count(), watch, [&](size_t i) {
@@ -128,7 +126,7 @@ bool CollapseRules::keeps_topology(uint32_t removed, uint32_t kept) {
         if (a == kept) ++shared_[around_removed_.find(b)];
         if (b == kept) ++shared_[around_removed_.find(a)];
     }
-    const bool gather_kept = mesh_.valence(kept) <= long_ring;
+    const bool gather_kept = mesh_.valence(kept) <= largest_removable_valence;
     if (gather_kept) around_kept_.gather(mesh_, kept);
     for (uint32_t i = 0; i < shared_.size(); ++i) {
         const uint32_t x = around_removed_.all()[i];
@@ -157,21 +155,29 @@ uint32_t CollapseRules::edge_uses(uint32_t vertex, uint32_t kept, bool ring_gath
     return uses;
 }
 
+// In either orientation. True, too, where all three have too many triangles to search.
+bool CollapseRules::has_triangle(std::array<uint32_t, 3> corners) {
+    std::sort(corners.begin(), corners.end(),
+              [this](uint32_t a, uint32_t b) { return mesh_.valence(a) < mesh_.valence(b); });
+    const auto [v, a, b] = corners;
+    if (mesh_.valence(v) > largest_removable_valence) return true;
+    searched_ += mesh_.valence(v);
+    for (uint32_t c = mesh_.first_corner(v); c != no_index; c = mesh_.corner_after(c)) {
+        const uint32_t next = mesh_.corner_vertex(CollapseMesh::next_corner(c));
+        const uint32_t previous = mesh_.corner_vertex(CollapseMesh::previous_corner(c));
+        if ((next == a && previous == b) || (next == b && previous == a)) return true;
+    }
+    return false;
+}
+
 // Whether a triangle that moves would land on one that is there, in either orientation.
 bool CollapseRules::duplicates(uint32_t removed, uint32_t kept) {
     for (uint32_t c = mesh_.first_corner(removed); c != no_index; c = mesh_.corner_after(c)) {
-        uint32_t a = mesh_.corner_vertex(CollapseMesh::next_corner(c));
-        uint32_t b = mesh_.corner_vertex(CollapseMesh::previous_corner(c));
+        const uint32_t a = mesh_.corner_vertex(CollapseMesh::next_corner(c));
+        const uint32_t b = mesh_.corner_vertex(CollapseMesh::previous_corner(c));
         if (a == kept || b == kept) continue;
         if (shared_[around_removed_.find(a)] == 0 || shared_[around_removed_.find(b)] == 0) continue;
-        if (mesh_.valence(b) < mesh_.valence(a)) std::swap(a, b);
-        if (mesh_.valence(a) > largest_removable_valence) return true;  // not known, and too long to search
-        searched_ += mesh_.valence(a);
-        for (uint32_t d = mesh_.first_corner(a); d != no_index; d = mesh_.corner_after(d)) {
-            const uint32_t e = mesh_.corner_vertex(CollapseMesh::next_corner(d));
-            const uint32_t f = mesh_.corner_vertex(CollapseMesh::previous_corner(d));
-            if ((e == kept && f == b) || (e == b && f == kept)) return true;
-        }
+        if (has_triangle({kept, a, b})) return true;
     }
     return false;
 }

@@ -1,6 +1,7 @@
 // Whether moving all triangles of one vertex to a neighbour keeps the surface sound.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -59,6 +60,7 @@ class CollapseRules {
 
   private:
     bool duplicates(uint32_t removed, uint32_t kept);
+    bool has_triangle(std::array<uint32_t, 3> corners);
     bool keeps_orientation(uint32_t removed, uint32_t kept) const;
     uint32_t edge_uses(uint32_t vertex, uint32_t kept, bool ring_gathered);
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/watched_loop.h"
 #include "core/simplify/collapse_mesh.h"
 
 namespace coppice {
@@ -13,7 +14,8 @@ double distance_to_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c);
 
 class Deviation {
   public:
-    explicit Deviation(const CollapseMesh& mesh) : mesh_(mesh), carried_(mesh.vertex_count(), 0.0) {}
+    explicit Deviation(const CollapseMesh& mesh, const Watch& watch = {})
+        : mesh_(mesh), carried_(watched_vector<double>(mesh.vertex_count(), watch)) {}
 
     // What the vertex that stays would stand for: the distance from the vertex that goes to the nearest
     // triangle that replaces its ring, on top of what that vertex has gathered before. The mesh is as before

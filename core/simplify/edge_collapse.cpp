@@ -16,7 +16,8 @@ Features features_for(const CollapseMesh& mesh, const CollapseOptions& options, 
 
 EdgeCollapse::EdgeCollapse(const Mesh& source, const Target& target, const CollapseOptions& options,
                            const MakeError& make_error, const Watch& watch)
-    : source_(source),
+    : steps_(watch),
+      source_(source),
       target_(target),
       has_values_(!source.attributes.empty() || !source.morph_targets.empty()),
       options_(options),
@@ -26,14 +27,14 @@ EdgeCollapse::EdgeCollapse(const Mesh& source, const Target& target, const Colla
       projection_(mesh_),
       error_(make_error({mesh_, features_.edges, clouds_, projection_})),
       rules_(mesh_, features_.kinds, watch),
-      bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal()),
-      lines_(mesh_, features_, line_tolerance_of_diagonal * mesh_.box().diagonal()),
+      bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
+      lines_(mesh_, features_, line_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
       uvs_(mesh_, source, watch),
-      deviation_(mesh_),
+      deviation_(mesh_, watch),
       wedge_map_(mesh_, clouds_),
       values_(source, mesh_.wedge_sources()),
-      around_(mesh_.vertex_count()),
-      around_other_(mesh_.vertex_count()),
+      around_(mesh_.vertex_count(), watch),
+      around_other_(mesh_.vertex_count(), watch),
       count_(target, mesh_) {
     watch.check();
 }
@@ -54,6 +55,7 @@ bool EdgeCollapse::allowed(uint32_t removed, uint32_t kept, bool ring_gathered) 
 }
 
 std::optional<EdgeCollapse::Merge> EdgeCollapse::place(uint32_t removed, uint32_t kept, Freedom freedom) {
+    steps_.add(mesh_.valence(removed));
     if (!wedge_map_.find(removed, kept)) {
         refusals_.add(Refusal::locked);
         return {};
@@ -227,7 +229,10 @@ std::optional<EdgeCollapse::Merge> EdgeCollapse::merge_again(uint32_t owner, uin
 std::optional<Collapsed> EdgeCollapse::try_collapse(uint32_t owner, uint32_t other) {
     const std::optional<Merge> merge = merge_again(owner, other);
     if (!merge) return {};
+    const uint64_t searched = rules_.searched();
     const Refusal refusal = check(*merge);
+    steps_.add(size_t{8} * mesh_.valence(merge->removed) +
+               (rules_.searched() - searched));  // each rule looks
     if (refusal != Refusal::none) {
         refusals_.add(refusal);
         return {};

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/watch.h"
+#include "core/base/watched_loop.h"
 #include "core/simplify/algorithm.h"
 #include "core/simplify/attribute_cloud.h"
 #include "core/simplify/bounds_guard.h"
@@ -41,7 +41,8 @@ class EdgeCollapse {
   public:
     using MakeError = std::function<std::unique_ptr<CollapseError>(const CollapseParts&)>;
 
-    // Keeps references to the source and the target.
+    // Keeps references to the source and the target, and a copy of the watch, which is looked at by the work
+    // that candidates and collapses cost.
     EdgeCollapse(const Mesh& source, const Target& target, const CollapseOptions& options,
                  const MakeError& make_error, const Watch& watch);
     EdgeCollapse(const EdgeCollapse&) = delete;
@@ -91,6 +92,7 @@ class EdgeCollapse {
     void apply(const Merge& merge);
     void blend_wedges(uint32_t kept);
 
+    WatchedSteps steps_;
     const Mesh& source_;
     const Target& target_;
     bool has_values_;  // that wedges get where they move

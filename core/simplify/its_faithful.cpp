@@ -40,7 +40,11 @@ struct Option {
 class UnderThreshold {
   public:
     UnderThreshold(EdgeCollapse& work, std::optional<double> first_threshold, const Watch& watch)
-        : work_(work), mesh_(work.mesh()), watch_(watch), around_(mesh_.vertex_count()) {
+        : work_(work),
+          mesh_(work.mesh()),
+          watch_(watch),
+          steps_(watch),
+          around_(mesh_.vertex_count(), watch) {
         gather_pairs();
         threshold_ = first_threshold ? *first_threshold : mean_length() / 4;
     }
@@ -59,7 +63,6 @@ class UnderThreshold {
     uint64_t drain() {
         uint64_t collapses = 0;
         for (uint64_t step = 0; !work_.done() && take_shortest(); ++step) {
-            if (step % 16 == 0) watch_.check();
             if (step % 512 == 0) watch_.report(work_.fraction());
             collapses += collapse_one(adapt_threshold());
         }
@@ -67,14 +70,14 @@ class UnderThreshold {
     }
 
     void gather_pairs() {
+        heap_.reserve(3 * size_t{mesh_.live_triangles()} / 2 + mesh_.live_vertices());
         for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
-            if (v % 4096 == 0) watch_.check();
-            around_.gather(mesh_, v);
+            around_.gather(mesh_, v, steps_);
             for (const uint32_t u : around_.all()) {
                 if (v < u) heap_.push_back(pair(v, u));
             }
         }
-        std::make_heap(heap_.begin(), heap_.end(), std::greater<>());
+        std::make_heap(heap_.begin(), heap_.end(), steps_.counting(std::greater<>()));
     }
 
     Pair pair(uint32_t u, uint32_t v) const {
@@ -83,7 +86,7 @@ class UnderThreshold {
 
     double mean_length() const {
         double sum = 0;
-        for (const Pair& p : heap_) sum += p.length;
+        watched_loop(heap_.size(), watch_, [&](size_t i) { sum += heap_[i].length; });
         return heap_.empty() || !(sum > 0) ? 1.0 : sum / static_cast<double>(heap_.size());
     }
 
@@ -92,11 +95,12 @@ class UnderThreshold {
         std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
     }
 
-    bool exists(const Pair& p) const {
+    bool exists(const Pair& p) {
         if (!mesh_.is_live_vertex(p.a) || !mesh_.is_live_vertex(p.b)) return false;
         const bool a_is_smaller = mesh_.valence(p.a) < mesh_.valence(p.b);
         const uint32_t from = a_is_smaller ? p.a : p.b, to = a_is_smaller ? p.b : p.a;
         for (uint32_t c = mesh_.first_corner(from); c != no_index; c = mesh_.corner_after(c)) {
+            steps_.add(1);
             if (mesh_.corner_vertex(CollapseMesh::next_corner(c)) == to) return true;
             if (mesh_.corner_vertex(CollapseMesh::previous_corner(c)) == to) return true;
         }
@@ -167,11 +171,11 @@ class UnderThreshold {
     }
 
     bool try_collapse(const Option& o) {
-        around_.gather(mesh_, o.kept);
+        around_.gather(mesh_, o.kept, steps_);
         before_ = around_.all();
-        std::sort(before_.begin(), before_.end());
+        std::sort(before_.begin(), before_.end(), steps_.counting(std::less<>()));
         if (!work_.try_collapse(o.removed, o.kept)) return false;
-        around_.gather(mesh_, o.kept);
+        around_.gather(mesh_, o.kept, steps_);
         for (const uint32_t v : around_.all()) {
             if (!std::binary_search(before_.begin(), before_.end(), v)) push(pair(o.kept, v));
         }
@@ -181,6 +185,7 @@ class UnderThreshold {
     EdgeCollapse& work_;
     const CollapseMesh& mesh_;
     const Watch& watch_;
+    WatchedSteps steps_;
     double threshold_ = 0;
     std::vector<Pair> heap_;      // least length on top
     std::vector<Pair> shortest_;  // ascending

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/watched_loop.h"
+
 namespace coppice {
 
 namespace {
@@ -16,19 +18,24 @@ double distance_to_segment(Vec3d point, Vec3d a, Vec3d b) {
 
 }  // namespace
 
-LineGuard::LineGuard(const CollapseMesh& mesh, const Features& features, double tolerance)
-    : mesh_(mesh), tolerance_(tolerance), on_line_(mesh.vertex_count()), next_(mesh.vertex_count()) {
-    for (uint32_t v = 0; v < mesh.vertex_count(); ++v)
+LineGuard::LineGuard(const CollapseMesh& mesh, const Features& features, double tolerance, const Watch& watch)
+    : mesh_(mesh),
+      tolerance_(tolerance),
+      on_line_(mesh.vertex_count()),
+      next_(watched_vector<Both>(mesh.vertex_count(), watch)) {
+    watched_loop(mesh.vertex_count(), watch, [&](size_t v) {
         on_line_[v] = features.kinds[v] == VertexKind::border || features.kinds[v] == VertexKind::seam;
+    });
     const auto add = [&](uint32_t from, uint32_t to) {
         Both& both = next_[from];
         if (both[0].vertex == to || both[1].vertex == to) return;  // a seam is listed once per side
         (both[0].vertex == no_index ? both[0] : both[1]).vertex = to;
     };
-    for (const FeatureEdge& edge : features.edges) {
+    watched_loop(features.edges.size(), watch, [&](size_t i) {
+        const FeatureEdge& edge = features.edges[i];
         if (on_line_[edge.a]) add(edge.a, edge.b);
         if (on_line_[edge.b]) add(edge.b, edge.a);
-    }
+    });
 }
 
 std::optional<LineGuard::Both> LineGuard::along(uint32_t removed, uint32_t kept) const {

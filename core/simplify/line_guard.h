@@ -21,7 +21,7 @@ inline constexpr double line_tolerance_of_diagonal = 0.049;
 class LineGuard {
   public:
     // tolerance in mesh units.
-    LineGuard(const CollapseMesh& mesh, const Features& features, double tolerance);
+    LineGuard(const CollapseMesh& mesh, const Features& features, double tolerance, const Watch& watch = {});
 
     // Whether the line of `removed`, drawn straight from `kept` to its other neighbour, is near enough. True
     // for vertices of no line.

@@ -5,18 +5,30 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/watched_loop.h"
 #include "core/simplify/collapse_mesh.h"
 
 namespace coppice {
 
 class Neighbours {
   public:
-    explicit Neighbours(uint32_t vertex_count) : marks_(vertex_count) {}
+    explicit Neighbours(uint32_t vertex_count, const Watch& watch = {})
+        : marks_(watched_vector<Mark>(vertex_count, watch)) {}
 
     // Forgets the last vertex and gathers the neighbours of this one, in the order of its corners.
     void gather(const CollapseMesh& mesh, uint32_t vertex) {
         begin(mesh.valence(vertex));
         for (uint32_t c = mesh.first_corner(vertex); c != no_index; c = mesh.corner_after(c)) {
+            add(mesh.corner_vertex(CollapseMesh::next_corner(c)));
+            add(mesh.corner_vertex(CollapseMesh::previous_corner(c)));
+        }
+    }
+
+    // The same, counted, for vertices that may have very many triangles.
+    void gather(const CollapseMesh& mesh, uint32_t vertex, WatchedSteps& steps) {
+        begin(mesh.valence(vertex));
+        for (uint32_t c = mesh.first_corner(vertex); c != no_index; c = mesh.corner_after(c)) {
+            steps.add(1);
             add(mesh.corner_vertex(CollapseMesh::next_corner(c)));
             add(mesh.corner_vertex(CollapseMesh::previous_corner(c)));
         }

@@ -18,8 +18,8 @@ UnifiedError::UnifiedError(const CollapseParts& parts, const UnifiedOptions& opt
       clouds_(parts.clouds),
       weights_(options.weights),
       max_geometric_error_(options.max_geometric_error),
-      geometry_(mesh_.vertex_count()),
-      spread_(size_t{mesh_.vertex_count()} * clouds_.channels()) {
+      geometry_(watched_vector<Geometry>(mesh_.vertex_count(), watch)),
+      spread_(watched_vector<Spread>(size_t{mesh_.vertex_count()} * clouds_.channels(), watch)) {
     const InstanceMetric metric(options.instances);
     add_planes(metric, watch);
     if (weights_ == PlaneWeights::area) add_constraints(parts.features, metric, watch);

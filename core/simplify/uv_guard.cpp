@@ -38,8 +38,8 @@ UvGuard::UvGuard(const CollapseMesh& mesh, const Mesh& source, const Watch& watc
         if (is_uv_set(a)) sets.push_back(&a);
     }
     sets_ = static_cast<uint32_t>(sets.size());
-    uvs_.resize(size_t{mesh.wedge_count()} * sets_);
-    around_.resize(uvs_.size(), unseen);
+    watched_resize(uvs_, size_t{mesh.wedge_count()} * sets_, watch);
+    watched_resize(around_, uvs_.size(), watch, unseen);
     for (uint32_t set = 0; set < sets_; ++set) add_set(mesh, *sets[set], set, watch);
 }
 

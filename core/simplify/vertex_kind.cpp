@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "core/base/watched_loop.h"
+
 #include "core/simplify/neighbours.h"
 
 namespace coppice {
@@ -34,7 +36,8 @@ struct Spoke {
 
 class Classifier {
   public:
-    explicit Classifier(const CollapseMesh& mesh) : mesh_(mesh), neighbours_(mesh.vertex_count()) {}
+    Classifier(const CollapseMesh& mesh, const Watch& watch)
+        : mesh_(mesh), steps_(watch), neighbours_(mesh.vertex_count(), watch) {}
 
     VertexKind classify(uint32_t vertex) {
         spokes_.clear();
@@ -98,13 +101,14 @@ class Classifier {
     }
 
     void gather_spokes(uint32_t vertex) {
-        neighbours_.gather(mesh_, vertex);
-        spokes_.assign(neighbours_.all().size(), Spoke{});
-        for (uint32_t i = 0; i < spokes_.size(); ++i) {
-            spokes_[i].neighbour = neighbours_.all()[i];
-            spokes_[i].fan = i;
+        neighbours_.gather(mesh_, vertex, steps_);
+        spokes_.clear();
+        for (const uint32_t neighbour : neighbours_.all()) {
+            steps_.add(1);
+            spokes_.push_back({.neighbour = neighbour, .fan = static_cast<uint32_t>(spokes_.size())});
         }
         for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c)) {
+            steps_.add(1);
             const uint32_t a = use(c, CollapseMesh::next_corner(c));
             const uint32_t b = use(c, CollapseMesh::previous_corner(c));
             unite(a, b);
@@ -144,6 +148,7 @@ class Classifier {
     }
 
     const CollapseMesh& mesh_;
+    WatchedSteps steps_;
     Neighbours neighbours_;
     std::vector<Spoke> spokes_;
 };
@@ -169,14 +174,14 @@ void lock_sharp_borders(const CollapseMesh& mesh, Features& features) {
 
 Features find_features(const CollapseMesh& mesh, const Watch& watch) {
     Features features;
-    features.kinds.assign(mesh.vertex_count(), VertexKind::corner);
-    Classifier classifier(mesh);
-    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-        if (v % 4096 == 0) watch.check();
-        if (!mesh.is_live_vertex(v)) continue;
+    features.kinds = watched_vector(mesh.vertex_count(), watch, VertexKind::corner);
+    Classifier classifier(mesh, watch);
+    watched_loop(mesh.vertex_count(), watch, [&](size_t i) {
+        const auto v = static_cast<uint32_t>(i);
+        if (!mesh.is_live_vertex(v)) return;
         features.kinds[v] = classifier.classify(v);
         classifier.append_features(v, features.edges);
-    }
+    });
     return features;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
+#include <functional>
 #include <tuple>
 #include <utility>
 
@@ -65,7 +65,7 @@ struct SlotWedge {
 // sorted.
 std::vector<SlotWedge> used_pairs(const Mesh& mesh, const Watch& watch) {
     constexpr uint32_t unused = UINT32_MAX;
-    std::vector<uint32_t> first_slot(mesh.wedge_count(), unused);
+    std::vector<uint32_t> first_slot = watched_vector(mesh.wedge_count(), watch, unused);
     std::vector<std::pair<uint32_t, uint32_t>> more;
     watched_loop(mesh.triangles.size(), watch, [&](size_t corner) {
         const uint32_t wedge = mesh.triangles[corner];
@@ -73,12 +73,14 @@ std::vector<SlotWedge> used_pairs(const Mesh& mesh, const Watch& watch) {
         if (first_slot[wedge] == unused) first_slot[wedge] = slot;
         if (first_slot[wedge] != slot) more.emplace_back(wedge, slot);
     });
-    std::sort(more.begin(), more.end());
+    WatchedSteps steps(watch);
+    std::sort(more.begin(), more.end(), steps.counting(std::less<>()));
     more.erase(std::unique(more.begin(), more.end()), more.end());
     std::vector<SlotWedge> pairs;
-    for (uint32_t wedge = 0; wedge < first_slot.size(); ++wedge) {
-        if (first_slot[wedge] != unused) pairs.push_back({wedge, first_slot[wedge]});
-    }
+    pairs.reserve(first_slot.size() + more.size());
+    watched_loop(first_slot.size(), watch, [&](size_t wedge) {
+        if (first_slot[wedge] != unused) pairs.push_back({static_cast<uint32_t>(wedge), first_slot[wedge]});
+    });
     for (const auto& [wedge, slot] : more) pairs.push_back({wedge, slot});
     return pairs;
 }
@@ -86,11 +88,11 @@ std::vector<SlotWedge> used_pairs(const Mesh& mesh, const Watch& watch) {
 // Counting sort by vertex; fills begin.
 std::vector<SlotWedge> by_vertex(const Mesh& mesh, const std::vector<SlotWedge>& pairs,
                                  std::vector<uint32_t>& begin, const Watch& watch) {
-    begin.assign(mesh.vertex_count() + 1, 0);
-    for (const SlotWedge& p : pairs) ++begin[mesh.wedge_vertex[p.wedge] + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::vector<uint32_t> next(begin.begin(), begin.end() - 1);
-    std::vector<SlotWedge> sorted(pairs.size());
+    begin = watched_vector<uint32_t>(mesh.vertex_count() + 1, watch);
+    watched_loop(pairs.size(), watch, [&](size_t i) { ++begin[mesh.wedge_vertex[pairs[i].wedge] + 1]; });
+    watched_loop(mesh.vertex_count(), watch, [&](size_t v) { begin[v + 1] += begin[v]; });
+    std::vector<uint32_t> next = watched_copy(begin, watch);
+    std::vector<SlotWedge> sorted = watched_vector<SlotWedge>(pairs.size(), watch);
     watched_loop(pairs.size(), watch,
                  [&](size_t i) { sorted[next[mesh.wedge_vertex[pairs[i].wedge]]++] = pairs[i]; });
     return sorted;
@@ -104,13 +106,14 @@ std::vector<uint32_t> find_charts(const Mesh& mesh, const std::vector<uint32_t>&
         if (a.slot != b.slot) return a.slot < b.slot ? -1 : 1;
         return hard.compare(a.wedge, b.wedge);
     };
-    std::vector<uint32_t> chart(wedges.size());
+    std::vector<uint32_t> chart = watched_vector<uint32_t>(wedges.size(), watch);
+    WatchedSteps steps(watch);
     watched_loop(mesh.vertex_count(), watch, [&](size_t v) {
         std::sort(wedges.begin() + begin[v], wedges.begin() + begin[v + 1],
-                  [&order](const SlotWedge& a, const SlotWedge& b) {
+                  steps.counting([&order](const SlotWedge& a, const SlotWedge& b) {
                       const int difference = order(a, b);
                       return difference != 0 ? difference < 0 : a.wedge < b.wedge;
-                  });
+                  }));
         for (uint32_t w = begin[v]; w < begin[v + 1]; ++w) {
             const bool same = w > begin[v] && order(wedges[w - 1], wedges[w]) == 0;
             chart[w] = same ? chart[w - 1] : w;
@@ -123,15 +126,16 @@ std::vector<uint32_t> find_charts(const Mesh& mesh, const std::vector<uint32_t>&
 // looked up, as a hostile mesh may have a million of them at one vertex.
 std::vector<uint32_t> corner_wedges(const Mesh& mesh, const WedgeCharts& charts, const Watch& watch) {
     constexpr uint32_t unused = UINT32_MAX;
-    std::vector<uint32_t> last(mesh.wedge_count(), unused);        // by the source's wedge
-    std::vector<std::tuple<uint32_t, uint32_t, uint32_t>> others;  // source, slot, wedge
-    for (uint32_t w = 0; w < charts.source.size(); ++w) {
+    std::vector<uint32_t> last = watched_vector(mesh.wedge_count(), watch, unused);  // by the source's wedge
+    std::vector<std::tuple<uint32_t, uint32_t, uint32_t>> others;                    // source, slot, wedge
+    watched_loop(charts.source.size(), watch, [&](size_t w) {
         uint32_t& known = last[charts.source[w]];
         if (known != unused) others.emplace_back(charts.source[w], charts.slot[known], known);
-        known = w;
-    }
-    std::sort(others.begin(), others.end());
-    std::vector<uint32_t> corners(mesh.triangles.size());
+        known = static_cast<uint32_t>(w);
+    });
+    WatchedSteps steps(watch);
+    std::sort(others.begin(), others.end(), steps.counting(std::less<>()));
+    std::vector<uint32_t> corners = watched_vector<uint32_t>(mesh.triangles.size(), watch);
     watched_loop(corners.size(), watch, [&](size_t corner) {
         const uint32_t source = mesh.triangles[corner];
         const uint32_t slot = mesh.triangle_slot[corner / 3];
@@ -150,10 +154,12 @@ WedgeCharts wedge_charts(const Mesh& mesh, const Watch& watch) {
     WedgeCharts charts;
     std::vector<SlotWedge> wedges = by_vertex(mesh, used_pairs(mesh, watch), charts.begin, watch);
     charts.chart = find_charts(mesh, charts.begin, wedges, watch);
-    for (const SlotWedge& w : wedges) {
-        charts.source.push_back(w.wedge);
-        charts.slot.push_back(w.slot);
-    }
+    charts.source.reserve(wedges.size());
+    charts.slot.reserve(wedges.size());
+    watched_loop(wedges.size(), watch, [&](size_t w) {
+        charts.source.push_back(wedges[w].wedge);
+        charts.slot.push_back(wedges[w].slot);
+    });
     charts.corner_wedge = corner_wedges(mesh, charts, watch);
     return charts;
 }

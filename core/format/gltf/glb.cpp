@@ -1,6 +1,7 @@
 #include "core/format/gltf/glb.h"
 
 #include "core/base/error.h"
+#include "core/base/watched_loop.h"
 #include "core/format/gltf/gltf.h"
 
 namespace coppice {
@@ -78,7 +79,7 @@ GlbChunks parse_glb(ByteView bytes) {
     return chunks;
 }
 
-Bytes print_glb(std::string_view json, ByteView binary) {
+Bytes print_glb(std::string_view json, ByteView binary, const Watch& watch) {
     const auto padded = [](size_t size) { return (size + 3) / 4 * 4; };
     const size_t total = header_size + chunk_header_size + padded(json.size()) +
                          (binary.empty() ? 0 : chunk_header_size + padded(binary.size()));
@@ -91,12 +92,12 @@ Bytes print_glb(std::string_view json, ByteView binary) {
     append_u32(out, static_cast<uint32_t>(total));
     append_u32(out, static_cast<uint32_t>(padded(json.size())));
     append_u32(out, json_chunk);
-    append(out, as_bytes(json));
+    watched_append(out, as_bytes(json), watch);
     out.resize(header_size + chunk_header_size + padded(json.size()), std::byte{' '});
     if (binary.empty()) return out;
     append_u32(out, static_cast<uint32_t>(padded(binary.size())));
     append_u32(out, binary_chunk);
-    append(out, binary);
+    watched_append(out, binary, watch);
     out.resize(total);
     return out;
 }

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/bytes.h"
+#include "core/base/watch.h"
 
 namespace coppice::gltf {
 
@@ -17,6 +18,6 @@ struct GlbChunks {
 GlbChunks parse_glb(ByteView bytes);
 
 // binary may be empty: then there is no second chunk.
-Bytes print_glb(std::string_view json, ByteView binary);
+Bytes print_glb(std::string_view json, ByteView binary, const Watch& watch = {});
 
 }  // namespace coppice::gltf

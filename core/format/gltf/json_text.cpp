@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/watched_loop.h"
 
 namespace coppice::gltf {
 
@@ -136,8 +137,30 @@ Json parse_json(ByteView bytes, const ReadLimits& limits, const Watch& watch) {
     return builder.tree();
 }
 
-std::string print_json(const Json& json) {
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string print_json(const Json& json, const Watch& watch) {
+    const auto print = [](const Json& value) {
+        return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    };
+    if (!json.is_object()) return print(json);
+    // What a document may have millions of are elements of its arrays.
+    WatchedSteps steps(watch);
+    std::string text = "{";
+    for (const auto& [key, value] : json.items()) {
+        text += (text.size() > 1 ? "," : "") + print(key) + ":";
+        if (!value.is_array()) {
+            text += print(value);
+            continue;
+        }
+        text += "[";
+        for (size_t i = 0; i < value.size(); ++i) {
+            const std::string element = print(value[i]);
+            steps.add(1 + element.size());
+            if (i > 0) text += ",";
+            text += element;
+        }
+        text += "]";
+    }
+    return text + "}";
 }
 
 }  // namespace coppice::gltf

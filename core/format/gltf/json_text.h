@@ -16,6 +16,6 @@ using Json = nlohmann::json;
 Json parse_json(ByteView text, const ReadLimits& limits, const Watch& watch);
 
 // No spaces; keys sorted, so equal trees give equal text. Invalid UTF-8 cannot occur in what parse_json made.
-std::string print_json(const Json& json);
+std::string print_json(const Json& json, const Watch& watch = {});
 
 }  // namespace coppice::gltf

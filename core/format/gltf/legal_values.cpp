@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "core/base/watched_loop.h"
 #include "core/format/gltf/accessor.h"
 #include "core/format/gltf/semantics.h"
 
@@ -30,16 +31,16 @@ bool is_unit(Vec3d v, Storage storage) {
 }
 
 // Sums of the triangles' normals, weighted by area, per wedge.
-std::vector<Vec3d> triangle_normals(const Mesh& mesh) {
-    std::vector<Vec3d> normals(mesh.wedge_count());
-    for (size_t t = 0; t < mesh.triangle_count(); ++t) {
+std::vector<Vec3d> triangle_normals(const Mesh& mesh, const Watch& watch) {
+    std::vector<Vec3d> normals = watched_vector<Vec3d>(mesh.wedge_count(), watch);
+    watched_loop(mesh.triangle_count(), watch, [&](size_t t) {
         const Vec3d a = mesh.corner_position(t, 0);
         const Vec3d normal = cross(mesh.corner_position(t, 1) - a, mesh.corner_position(t, 2) - a);
         for (size_t c = 0; c < 3; ++c) {
             Vec3d& sum = normals[mesh.triangles[3 * t + c]];
             sum = sum + normal;
         }
-    }
+    });
     return normals;
 }
 
@@ -47,16 +48,16 @@ Vec3d perpendicular(Vec3d v) {
     return normalized(cross(v, std::abs(v.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0}));
 }
 
-void make_unit(Mesh& mesh, Attribute& attribute, bool is_tangent) {
+void make_unit(Mesh& mesh, Attribute& attribute, bool is_tangent, const Watch& watch) {
     std::vector<Vec3d> fallback;
-    for (size_t w = 0; w < mesh.wedge_count(); ++w) {
+    watched_loop(mesh.wedge_count(), watch, [&](size_t w) {
         float* v = &attribute.values[w * attribute.components];
         if (is_tangent && v[3] != 1 && v[3] != -1) v[3] = v[3] < 0 ? -1.0F : 1.0F;
         Vec3d direction = vector_at(attribute, w);
-        if (is_unit(direction, attribute.storage)) continue;
+        if (is_unit(direction, attribute.storage)) return;
         direction = normalized(direction);
         if (!(squared_length(direction) > 0.5)) {
-            if (fallback.empty()) fallback = triangle_normals(mesh);
+            if (fallback.empty()) fallback = triangle_normals(mesh, watch);
             direction = normalized(fallback[w]);
             if (!(squared_length(direction) > 0.5)) direction = {0, 0, 1};
             if (is_tangent) direction = perpendicular(direction);
@@ -64,7 +65,7 @@ void make_unit(Mesh& mesh, Attribute& attribute, bool is_tangent) {
         v[0] = static_cast<float>(direction.x);
         v[1] = static_cast<float>(direction.y);
         v[2] = static_cast<float>(direction.z);
-    }
+    });
 }
 
 // The sets of joints and weights of one vertex; glTF checks them all together.
@@ -125,20 +126,24 @@ void normalize(Influences& influences, size_t w) {
 
 }  // namespace
 
-void make_legal(Mesh& mesh) {
+void make_legal(Mesh& mesh, const Watch& watch) {
     Influences influences;
     for (Attribute& attribute : mesh.attributes) {
         const Semantic semantic = parse_attribute_name(attribute.name).semantic;
-        if (semantic == Semantic::normal) make_unit(mesh, attribute, false);
-        if (semantic == Semantic::tangent && attribute.components == 4) make_unit(mesh, attribute, true);
+        if (semantic == Semantic::normal) make_unit(mesh, attribute, false, watch);
+        if (semantic == Semantic::tangent && attribute.components == 4)
+            make_unit(mesh, attribute, true, watch);
         if (semantic == Semantic::color)
-            for (float& v : attribute.values) v = std::clamp(v, 0.0F, 1.0F);
+            watched_loop(attribute.values.size(), watch, [&](size_t i) {
+                attribute.values[i] = std::clamp(attribute.values[i], 0.0F, 1.0F);
+            });
         if (semantic == Semantic::joints) influences.joints.push_back(&attribute);
         if (semantic == Semantic::weights) influences.weights.push_back(&attribute);
     }
     if (influences.weights.empty() || influences.joints.size() != influences.weights.size()) return;
-    for (size_t w = 0; w < mesh.wedge_count(); ++w)
+    watched_loop(mesh.wedge_count(), watch, [&](size_t w) {
         if (!is_legal(influences, w)) normalize(influences, w);
+    });
 }
 
 }  // namespace coppice::gltf

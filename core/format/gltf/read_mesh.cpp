@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
+#include "core/base/watched_loop.h"
 #include "core/format/clean_triangles.h"
 #include "core/format/gltf/legal_values.h"
 #include "core/format/gltf/read_primitive.h"
@@ -76,7 +78,7 @@ class MeshReader {
         data_.push_back(read_primitive(
             parsed_, primitive,
             {limits_.triangles - budget_.triangles, limits_.attribute_bytes - budget_.attribute_bytes},
-            where));
+            where, watch_));
         budget_.triangles += data_.back().triangles.size() / 3;
         require(budget_.triangles <= limits_.triangles, ErrorCode::asset_too_large, where,
                 "the meshes have more than {} triangles (limit triangles)", limits_.triangles);
@@ -91,13 +93,16 @@ class MeshReader {
     }
 
     // The vertices that triangles use, ascending, and the triangles in terms of them.
-    static std::vector<uint32_t> take_used(PrimitiveData& data) {
-        std::vector<uint32_t> used = data.triangles;
-        std::sort(used.begin(), used.end());
+    std::vector<uint32_t> take_used(PrimitiveData& data) const {
+        std::vector<uint32_t> used = watched_copy(data.triangles, watch_);
+        WatchedSteps steps(watch_);
+        std::sort(used.begin(), used.end(), steps.counting(std::less<>()));
         used.erase(std::unique(used.begin(), used.end()), used.end());
         used.shrink_to_fit();
-        for (uint32_t& corner : data.triangles)
+        watched_loop(data.triangles.size(), watch_, [&](size_t i) {
+            uint32_t& corner = data.triangles[i];
             corner = static_cast<uint32_t>(std::lower_bound(used.begin(), used.end(), corner) - used.begin());
+        });
         return used;
     }
 
@@ -136,14 +141,16 @@ class MeshReader {
                 limits_.attribute_bytes);
         mesh_.positions.reserve(wedges);
         mesh_.wedge_vertex.reserve(wedges);
-        for_each_stream([&](Attribute& stream) { stream.values.resize(wedges * stream.components); });
+        for_each_stream(
+            [&](Attribute& stream) { watched_resize(stream.values, wedges * stream.components, watch_); });
     }
 
     void fill(size_t slot) {
         PrimitiveData& data = data_[slot];
         const std::vector<uint32_t>& used = used_[slot];
         const auto first = static_cast<uint32_t>(mesh_.wedge_vertex.size());
-        for (const uint32_t vertex : used) {
+        watched_loop(used.size(), watch_, [&](size_t i) {
+            const uint32_t vertex = used[i];
             const Accessor& at = *data.positions;
             const Vec3f p = {at.value(vertex, 0), at.value(vertex, 1), at.value(vertex, 2)};
             demand(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), pointer("meshes", index_),
@@ -151,8 +158,10 @@ class MeshReader {
                    *mesh_.slots[slot].source_primitive);
             mesh_.wedge_vertex.push_back(static_cast<uint32_t>(mesh_.positions.size()));
             mesh_.positions.push_back(p);
-        }
-        for (const uint32_t corner : data.triangles) mesh_.triangles.push_back(first + corner);
+        });
+        mesh_.triangles.reserve(mesh_.triangles.size() + data.triangles.size());
+        watched_loop(data.triangles.size(), watch_,
+                     [&](size_t i) { mesh_.triangles.push_back(first + data.triangles[i]); });
         mesh_.triangle_slot.insert(mesh_.triangle_slot.end(), data.triangles.size() / 3,
                                    static_cast<uint32_t>(slot));
         for (const NamedAccessor& from : data.attributes) {
@@ -177,20 +186,21 @@ class MeshReader {
     }
 
     // first: the wedge of the first of the used vertices.
-    static void set_values(Attribute& attribute, const Accessor& from, const std::vector<uint32_t>& used,
-                           size_t first) {
+    void set_values(Attribute& attribute, const Accessor& from, const std::vector<uint32_t>& used,
+                    size_t first) const {
         const bool is_color = parse_attribute_name(attribute.name).semantic == Semantic::color;
         float* value = attribute.values.data() + first * attribute.components;
-        for (const uint32_t vertex : used)
+        watched_loop(used.size(), watch_, [&](size_t i) {
             for (uint32_t c = 0; c < attribute.components; ++c, ++value) {
                 // A colour without alpha, beside others that have it, is opaque.
-                *value = c < from.components() ? from.value(vertex, c) : is_color ? 1.0F : 0.0F;
+                *value = c < from.components() ? from.value(used[i], c) : is_color ? 1.0F : 0.0F;
                 if (!std::isfinite(*value)) *value = 0;
             }
+        });
     }
 
     void clean() {
-        make_legal(mesh_);
+        make_legal(mesh_, watch_);
         weld(mesh_, watch_);
         clean_triangles(mesh_, fmt::format("mesh {}", index_), pointer("meshes", index_).text(),
                         parsed_.warnings, watch_);

@@ -31,6 +31,6 @@ bool is_triangles(const Json& primitive);
 // draco_limits: what a Draco stream may decode to; what accessors say was checked before. Throws
 // asset_malformed, asset_too_large.
 PrimitiveData read_primitive(const Parsed& parsed, const Json& primitive, const DracoLimits& draco_limits,
-                             const Pointer& where);
+                             const Pointer& where, const Watch& watch);
 
 }  // namespace coppice::gltf

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "core/base/watched_loop.h"
 #include "core/mesh/attribute_set.h"
 
 namespace coppice::gltf {
@@ -24,12 +25,14 @@ std::vector<std::vector<uint32_t>> slots_with_the_same_attributes(const Mesh& me
 
 }  // namespace
 
-SlotGeometries::SlotGeometries(const Mesh& mesh)
+SlotGeometries::SlotGeometries(const Mesh& mesh, const Watch& watch)
     : mesh_(mesh),
+      watch_(watch),
       slots_(mesh.slots.size()),
       triangles_(mesh.slots.size()),
-      seen_(mesh.wedge_count(), {none, none, none, none}) {
-    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) triangles_[mesh.triangle_slot[t]].push_back(t);
+      seen_(watched_vector(mesh.wedge_count(), watch, Seen{none, none, none, none})) {
+    watched_loop(mesh.triangle_count(), watch,
+                 [&](size_t t) { triangles_[mesh.triangle_slot[t]].push_back(static_cast<uint32_t>(t)); });
     for (const std::vector<uint32_t>& slots : slots_with_the_same_attributes(mesh)) {
         if (pays_to_share(slots)) {
             fill_buffer(slots);
@@ -41,8 +44,11 @@ SlotGeometries::SlotGeometries(const Mesh& mesh)
 
 template <typename Visit>
 void SlotGeometries::each_wedge(uint32_t slot, const Visit& visit) const {
-    for (const uint32_t t : triangles_[slot])
-        for (size_t corner = 0; corner < 3; ++corner) visit(mesh_.triangles[3 * size_t{t} + corner]);
+    const std::vector<uint32_t>& triangles = triangles_[slot];
+    watched_loop(triangles.size(), watch_, [&](size_t i) {
+        for (size_t corner = 0; corner < 3; ++corner)
+            visit(mesh_.triangles[3 * size_t{triangles[i]} + corner]);
+    });
 }
 
 // Not where longer indices would take more bytes than shared vertices save.

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/watch.h"
 #include "core/mesh/mesh.h"
 
 namespace coppice::gltf {
@@ -23,7 +24,7 @@ class SlotGeometries {
 
     // All slots with the same attributes share one vertex buffer, if that saves more than it costs: any wedge
     // that two of them use is stored once then.
-    explicit SlotGeometries(const Mesh& mesh);
+    SlotGeometries(const Mesh& mesh, const Watch& watch);
     SlotGeometries(const SlotGeometries&) = delete;
     SlotGeometries& operator=(const SlotGeometries&) = delete;
 
@@ -36,6 +37,7 @@ class SlotGeometries {
     void fill_buffer(std::span<const uint32_t> slots);
 
     const Mesh& mesh_;
+    const Watch& watch_;
     std::vector<Slot> slots_;
     std::vector<std::vector<uint32_t>> triangles_;  // of each slot
     std::deque<std::vector<uint32_t>> buffers_;     // the wedges of each

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/base/watched_loop.h"
 
 namespace coppice::gltf {
 
@@ -92,12 +93,12 @@ uint32_t BufferWriter::add(const Accessor& accessor, Kind kind, bool bounds, con
     if (accessor.storage.normalized) json["normalized"] = true;
     json["count"] = accessor.count;
     json["type"] = type_name(accessor);
-    for (uint64_t i = 0; i < accessor.count; ++i) {
+    watched_loop(accessor.count, watch_, [&](size_t i) {
         append(bytes,
                accessor.bytes.subspan(i * accessor.stride,
                                       std::min<size_t>(tight, accessor.bytes.size() - i * accessor.stride)));
         bytes.resize(bytes.size() + (stride - tight));
-    }
+    });
     if (bounds) add_bounds(accessor, json);
     size_ += bytes.size() - before;
     accessors_.push_back(std::move(json));
@@ -118,13 +119,14 @@ uint32_t BufferWriter::add_view(ByteView bytes) {
 Bytes BufferWriter::finish(Json& document) {
     Bytes all;
     Json views = Json::array();
+    all.reserve(size_ + 8 * views_.size());
     for (View& view : views_) {
         pad(all, 8);  // what metadata asks for; others are content with 4
         view.json["buffer"] = 0;
         view.json.erase("byteOffset");
         if (!all.empty()) view.json["byteOffset"] = all.size();
         view.json["byteLength"] = view.bytes.size();
-        append(all, view.bytes);
+        watched_append(all, view.bytes, watch_);
         view.bytes = {};
         views.push_back(std::move(view.json));
     }

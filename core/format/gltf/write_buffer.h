@@ -13,6 +13,9 @@ namespace coppice::gltf {
 // Elements of a kind share a buffer view each, so that a scene of many meshes needs few of them.
 class BufferWriter {
   public:
+    // Keeps a reference to the watch.
+    explicit BufferWriter(const Watch& watch) : watch_(watch) {}
+
     // Views and accessors with which the arrays begin: they keep their indices.
     void keep(const Json& accessors, const Json& views, const std::map<uint32_t, Bytes>& bytes);
 
@@ -40,6 +43,7 @@ class BufferWriter {
     };
     uint32_t shared_view(Kind kind, uint32_t stride);
 
+    const Watch& watch_;
     std::vector<View> views_;
     std::map<std::pair<Kind, uint32_t>, uint32_t> shared_;  // by kind and stride
     Json accessors_ = Json::array();

@@ -52,6 +52,7 @@ class DocumentWriter {
         : scene_(scene),
           options_(options),
           watch_(watch),
+          buffer_(watch),
           source_(dynamic_cast<const GltfDocument*>(scene.source.get())) {}
 
     WrittenDocument write(Images images) {
@@ -108,8 +109,11 @@ class DocumentWriter {
     }
 
     void write_meshes() {
-        MeshContext context{
-            buffer_, declares(out_.json, "extensionsRequired", "KHR_mesh_quantization"), {}, dropped_};
+        MeshContext context{buffer_,
+                            declares(out_.json, "extensionsRequired", "KHR_mesh_quantization"),
+                            {},
+                            dropped_,
+                            watch_};
         // Points and lines: an accessor is either indices or vertices, never both.
         context.pass_accessor = [this](uint32_t index) {
             kind_ = is_index_accessor(index) ? BufferWriter::Kind::indices : BufferWriter::Kind::vertices;
@@ -193,9 +197,9 @@ class DocumentWriter {
     const Scene& scene_;
     const WriteOptions& options_;
     const Watch& watch_;
+    BufferWriter buffer_;
     const GltfDocument* source_;
     WrittenDocument out_;
-    BufferWriter buffer_;
     BufferWriter::Kind kind_ = BufferWriter::Kind::data;  // of the accessor that is passed next
     std::map<uint32_t, uint32_t> passed_;
     std::optional<std::set<uint32_t>> index_accessors_;
@@ -227,8 +231,8 @@ namespace coppice {
 
 WrittenAsset write_glb(const Scene& scene, const WriteOptions& options, const Watch& watch) {
     gltf::WrittenDocument written = gltf::write_document(scene, options, gltf::Images::embedded, watch);
-    return {gltf::print_glb(gltf::print_json(written.json), written.buffer), "model/gltf-binary", "glb",
-            std::move(written.mesh_bytes), std::move(written.warnings)};
+    return {gltf::print_glb(gltf::print_json(written.json, watch), written.buffer, watch),
+            "model/gltf-binary", "glb", std::move(written.mesh_bytes), std::move(written.warnings)};
 }
 
 GltfFiles write_gltf(const Scene& scene, const WriteOptions& options, const Watch& watch) {
@@ -238,7 +242,7 @@ GltfFiles write_gltf(const Scene& scene, const WriteOptions& options, const Watc
     out.warnings = std::move(written.warnings);
     const std::string binary = options.base_name + ".bin";
     if (!written.buffer.empty()) written.json["buffers"][0]["uri"] = binary;
-    out.files.push_back({options.base_name + ".gltf", to_bytes(gltf::print_json(written.json))});
+    out.files.push_back({options.base_name + ".gltf", to_bytes(gltf::print_json(written.json, watch))});
     if (!written.buffer.empty()) out.files.push_back({binary, std::move(written.buffer)});
     for (NamedFile& image : written.images) out.files.push_back(std::move(image));
     return out;

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "core/base/watched_loop.h"
 #include "core/format/gltf/legal_values.h"
 #include "core/format/gltf/parsed.h"
 #include "core/format/gltf/read_primitive.h"
@@ -24,19 +25,21 @@ struct Values {
 };
 
 template <typename ValueAt>
-Values encode_values(uint32_t components, Storage storage, uint64_t count, const ValueAt& value) {
+Values encode_values(uint32_t components, Storage storage, uint64_t count, const Watch& watch,
+                     const ValueAt& value) {
     Values out;
     out.accessor.storage = storage;
     out.accessor.count = count;
     if (components == 9 || components == 16) out.accessor.columns = components == 9 ? 3 : 4;
     out.accessor.rows = components / out.accessor.columns;
     out.bytes.reserve(count * out.accessor.tight_stride());
-    for (uint64_t i = 0; i < count; ++i)
+    watched_loop(count, watch, [&](size_t i) {
         for (uint32_t c = 0; c < components; ++c) {
             append_component(out.bytes, encoded(value(i, c), storage), storage.type);
             const bool ends_column = out.accessor.columns > 1 && (c + 1) % out.accessor.rows == 0;
             while (ends_column && out.bytes.size() % 4 != 0) out.bytes.push_back(std::byte{0});
         }
+    });
     out.accessor.bytes = out.bytes;
     out.accessor.stride = out.accessor.tight_stride();
     return out;
@@ -114,7 +117,7 @@ class PrimitiveWriter {
         const Storage storage =
             allowed_storage("POSITION", 3, mesh_.position_storage, false, context_.quantization);
         const Values encoded_positions =
-            encode_values(3, storage, wedges.size(), [&](uint64_t i, uint32_t c) -> double {
+            encode_values(3, storage, wedges.size(), context_.watch, [&](uint64_t i, uint32_t c) -> double {
                 const Vec3f& p = mesh_.positions[mesh_.wedge_vertex[wedges[i]]];
                 return c == 0 ? p.x : c == 1 ? p.y : p.z;
             });
@@ -124,10 +127,11 @@ class PrimitiveWriter {
     uint32_t values(const Attribute& attribute, const std::vector<uint32_t>& wedges, bool is_delta) {
         const Storage storage = allowed_storage(attribute.name, attribute.components, attribute.storage,
                                                 is_delta, context_.quantization);
-        const Values encoded_values = encode_values(
-            attribute.components, storage, wedges.size(), [&](uint64_t i, uint32_t c) -> double {
-                return attribute.values[size_t{wedges[i]} * attribute.components + c];
-            });
+        const Values encoded_values =
+            encode_values(attribute.components, storage, wedges.size(), context_.watch,
+                          [&](uint64_t i, uint32_t c) -> double {
+                              return attribute.values[size_t{wedges[i]} * attribute.components + c];
+                          });
         return context_.buffer.add(encoded_values.accessor, BufferWriter::Kind::vertices,
                                    is_delta && attribute.name == "POSITION");
     }
@@ -152,7 +156,7 @@ class PrimitiveWriter {
         const bool is_short = geometry.wedges->size() <= largest_short_count;
         const Values encoded_indices = encode_values(
             1, {is_short ? ComponentType::uint16 : ComponentType::uint32, false}, geometry.indices.size(),
-            [&](uint64_t i, uint32_t) -> double { return geometry.indices[i]; });
+            context_.watch, [&](uint64_t i, uint32_t) -> double { return geometry.indices[i]; });
         return context_.buffer.add(encoded_indices.accessor, BufferWriter::Kind::indices, false);
     }
 
@@ -215,12 +219,14 @@ Json write_mesh(const Mesh& mesh, const Json* source, MeshContext& context) {
     Json json = source != nullptr ? *source : Json::object();
     json.erase("primitives");
     if (!mesh.name.empty()) json["name"] = mesh.name;
-    Mesh legal = mesh;
-    make_legal(legal);
+    Mesh legal = without_triangles(mesh, context.watch);
+    legal.triangles = watched_copy(mesh.triangles, context.watch);
+    legal.triangle_slot = watched_copy(mesh.triangle_slot, context.watch);
+    make_legal(legal, context.watch);
     Json primitives = Json::array();
     const auto write_slots = [&](const Mesh& of) {
         PrimitiveWriter writer(of, context);
-        const SlotGeometries geometries(of);
+        const SlotGeometries geometries(of, context.watch);
         for (uint32_t slot = 0; slot < of.slots.size(); ++slot)
             if (!geometries[slot].indices.empty())
                 primitives.push_back(

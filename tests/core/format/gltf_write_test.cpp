@@ -1,5 +1,6 @@
 #include "tests/core/format/gltf_document.h"
 
+#include "core/format/gltf/json_text.h"
 #include "core/format/gltf/trs.h"
 
 namespace coppice {
@@ -35,6 +36,18 @@ Scene one_instance(const Transform& transform) {
     scene.nodes[0].local = transform;
     scene.roots = {0};
     return scene;
+}
+
+TEST(PrintJson, gives_the_text_of_the_whole_and_looks_at_the_stop_amid_long_arrays) {
+    Json json = {{"empty", Json::array()},
+                 {"a \"name\"", {1, "\u00e9", nullptr, {{"b", {2, 3}}}}},
+                 {"object", Json::object()}};
+    for (int i = 0; i < 10'000; ++i) json["nodes"].push_back({{"name", "node"}, {"mesh", i}});
+    size_t checks = 0;
+    EXPECT_EQ(gltf::print_json(json, {.checked = [&checks] { ++checks; }}), json.dump());
+    EXPECT_GE(checks, 10U);
+    for (const Json& value : {Json(1.5), Json::array({1, 2}), Json::object()})
+        EXPECT_EQ(gltf::print_json(value), value.dump());
 }
 
 TEST(GltfWrite, gives_the_same_bytes_twice) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/base/watched_loop.h"
 #include "core/scene/expand.h"
 
 namespace coppice {
@@ -129,6 +130,14 @@ TEST(SceneBounds, are_refused_where_they_have_no_finite_diagonal) {
     }
     scene.nodes[0].local = scale(1e100);
     EXPECT_EQ(scene_bounds(scene).max.y, 1e100);
+}
+
+TEST(SceneBounds, look_at_the_stop_however_few_instances_have_however_many_positions) {
+    Scene scene = three_triangles();
+    scene.meshes[0].positions.resize(4 * watched_stride);
+    size_t checks = 0;
+    scene_bounds(scene, {.checked = [&checks] { ++checks; }});
+    EXPECT_GE(checks, 8U) << "for how far the mesh reaches, and for the outermost instance";
 }
 
 TEST(UnfoldBatches, lists_the_same_instances_in_the_same_order) {

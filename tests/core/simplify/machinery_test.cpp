@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "core/base/watched_loop.h"
 #include "core/simplify/attribute_cloud.h"
 #include "core/simplify/bounds_guard.h"
 #include "core/simplify/collapse_mesh.h"
@@ -265,6 +266,46 @@ Mesh bipyramid(uint32_t slices) {
     return mesh;
 }
 
+// Gives a vertex that many triangles more, which have only that vertex in common with the rest.
+void add_fan(Mesh& mesh, uint32_t hub, uint32_t slices) {
+    for (uint32_t i = 0; i <= slices; ++i) {
+        const auto v = static_cast<uint32_t>(mesh.positions.size());
+        mesh.positions.push_back({float(i), 1, 1});
+        mesh.wedge_vertex.push_back(v);
+        if (i == 0) continue;
+        mesh.triangles.insert(mesh.triangles.end(), {hub, v - 1, v});
+        mesh.triangle_slot.push_back(0);
+    }
+}
+
+TEST(CollapseRules, search_the_shorter_ring_of_two) {
+    Mesh mesh = bipyramid(100);
+    add_fan(mesh, 1, 100);
+    const CollapseMesh collapsing(mesh);
+    CollapseRules rules(collapsing, find_features(collapsing, {}).kinds);
+    EXPECT_TRUE(rules.keeps_topology(2, 0)) << "1 has too many triangles to search, 0 has not";
+}
+
+TEST(CollapseRules, search_the_shortest_ring_of_three) {
+    for (const bool has_bottom : {false, true}) {  // of the tetrahedron over 0, 1 and 2
+        Mesh mesh;
+        mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2F, 0.2F, 0.2F}};
+        mesh.wedge_vertex = {0, 1, 2, 3};
+        mesh.triangles = {0, 1, 3, 1, 2, 3, 2, 0, 3};
+        mesh.triangle_slot = {0, 0, 0};
+        mesh.slots.push_back({});
+        if (has_bottom) {
+            mesh.triangles.insert(mesh.triangles.end(), {0, 2, 1});
+            mesh.triangle_slot.push_back(0);
+        }
+        add_fan(mesh, 1, 200);
+        add_fan(mesh, 2, 200);
+        const CollapseMesh collapsing(mesh);
+        CollapseRules rules(collapsing, find_features(collapsing, {}).kinds);
+        EXPECT_EQ(rules.keeps_topology(3, 0), !has_bottom);
+    }
+}
+
 TEST(CollapseRules, search_no_hub_for_another_hub) {
     constexpr uint32_t slices = 5000;
     const Mesh mesh = bipyramid(slices);
@@ -274,6 +315,13 @@ TEST(CollapseRules, search_no_hub_for_another_hub) {
         EXPECT_EQ(rules.check(removed, 0), Refusal::topology) << "not known, and too long to find out";
     }
     EXPECT_LT(rules.searched(), 20 * slices);
+}
+
+TEST(Features, are_found_with_looks_at_the_stop_amid_a_vertex_of_very_many_triangles) {
+    const CollapseMesh collapsing(bipyramid(4 * watched_stride));
+    size_t checks = 0;
+    find_features(collapsing, {.checked = [&checks] { ++checks; }});
+    EXPECT_GE(checks, 2U * 3U * 4U) << "two hubs, whose triangles are looked at three times, in four strides";
 }
 
 // Vertex 0 lies on the edge from 1 to 2, in a triangle without area; 3 is on one side of it, 4 on the other.
