@@ -142,6 +142,9 @@ Mesh CollapseMesh::extract(const Mesh& source, const WedgeValues& values, const 
     if (!moved_.empty()) mesh.position_storage = {};
     std::vector<uint32_t> wedge_number(wedge_count(), no_index), vertex_number(vertex_count(), no_index);
     std::vector<uint32_t> wedges;
+    mesh.triangles.reserve(3 * size_t{live_triangles_});
+    mesh.triangle_slot.reserve(live_triangles_);
+    mesh.positions.reserve(live_vertices_);
     const auto vertex = [&](uint32_t v) {
         if (vertex_number[v] != no_index) return vertex_number[v];
         const bool moved = !moved_.empty() && moved_[v];

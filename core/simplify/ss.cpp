@@ -19,7 +19,7 @@ namespace {
 class Grid {
   public:
     Grid(const std::vector<Vec3d>& points, double cell) : cell_(cell) {
-        for (uint32_t i = 0; i < points.size(); ++i) entries_.push_back({key(at(points[i])), i});
+        for (uint32_t i = 0; i < points.size(); ++i) entries_.emplace_back(key(at(points[i])), i);
         std::sort(entries_.begin(), entries_.end());
     }
 

@@ -89,13 +89,13 @@ class TriangleRule final : public ClusterRule {
         std::array<size_t, buckets + 1> begin{};
         for (const Triangle& t : triangles_) ++begin[bucket(t) + 1];
         std::partial_sum(begin.begin(), begin.end(), begin.begin());
-        sorted_.resize(triangles_.size());
-        for (const Triangle& t : triangles_) sorted_[begin[bucket(t)]++] = t;
-        triangles_.swap(sorted_);
+        std::vector<Triangle> sorted(triangles_.size());
+        for (const Triangle& t : triangles_) sorted[begin[bucket(t)]++] = t;
+        triangles_ = std::move(sorted);
     }
 
     TriangleMerges merges_;
-    std::vector<Triangle> triangles_, sorted_;
+    std::vector<Triangle> triangles_;
     std::vector<uint8_t> taken_;  // per vertex
     uint32_t vertex_count_ = 0;
     double mean_longest_ = 0, longest_ = 0;

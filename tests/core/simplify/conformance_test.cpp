@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/mesh/adjacency.h"
+#include "core/sample/sample.h"
 #include "core/simplify/registry.h"
 #include "tests/support/properties.h"
 #include "tests/support/shapes.h"
@@ -147,6 +148,27 @@ testing::AssertionResult has_sound_values(const Mesh& mesh) {
     return testing::AssertionSuccess();
 }
 
+void expect_target(const Mesh& mesh, double ratio, const Simplified& s) {
+    const double target = ratio * static_cast<double>(mesh.triangle_count());
+    const auto triangles = static_cast<double>(s.mesh.triangle_count());
+    if (s.stop_reason == StopReason::target) {
+        EXPECT_NEAR(triangles, target, std::max(2.0, 0.01 * target));
+    } else {
+        EXPECT_GT(triangles, target) << name(s.stop_reason);
+        EXPECT_NE(s.stop_reason, StopReason::already_smaller);
+    }
+}
+
+// Within 2 % of the diagonal, or what the algorithm declares.
+void expect_box(const Algorithm& algorithm, const Mesh& before, const Mesh& after) {
+    const Bounds old = bounds(before.positions), now = bounds(after.positions);
+    const double allowed = std::max(0.02, algorithm.bounds_tolerance_of_diagonal) * old.diagonal();
+    EXPECT_LT(length(now.min - old.min), allowed);
+    EXPECT_LT(length(now.max - old.max), allowed);
+}
+
+constexpr double line_tolerance = 0.05;  // of the diagonal, whatever the ratio
+
 class EveryAlgorithm : public testing::TestWithParam<std::tuple<Variant, size_t>> {
   protected:
     const Variant& variant() const { return std::get<0>(GetParam()); }
@@ -161,16 +183,7 @@ class EveryAlgorithm : public testing::TestWithParam<std::tuple<Variant, size_t>
         }
     }
 
-    void expect_target(double ratio, const Simplified& s) const {
-        const double target = ratio * static_cast<double>(mesh().triangle_count());
-        const auto triangles = static_cast<double>(s.mesh.triangle_count());
-        if (s.stop_reason == StopReason::target) {
-            EXPECT_NEAR(triangles, target, std::max(2.0, 0.01 * target));
-        } else {
-            EXPECT_GT(triangles, target) << name(s.stop_reason);
-            EXPECT_NE(s.stop_reason, StopReason::already_smaller);
-        }
-    }
+    void expect_target(double ratio, const Simplified& s) const { coppice::expect_target(mesh(), ratio, s); }
 };
 
 // What holds on some shapes only is not asked of the others. Soup has no outside that a triangle could be
@@ -219,13 +232,9 @@ TEST_P(EveryAlgorithmOnSurfaces, flips_no_triangle) {
 
 TEST_P(EveryAlgorithm, keeps_the_box) {
     at_every_ratio([&](double, const Simplified& s) {
-        const Bounds before = bounds(mesh().positions), after = bounds(s.mesh.positions);
-        EXPECT_LT(length(after.min - before.min), 0.02 * before.diagonal());
-        EXPECT_LT(length(after.max - before.max), 0.02 * before.diagonal());
+        expect_box(find_algorithm(variant().algorithm), mesh(), s.mesh);
     });
 }
-
-constexpr double line_tolerance = 0.05;  // of the diagonal, whatever the ratio
 
 TEST_P(EveryAlgorithmOnSurfaces, keeps_borders) {
     at_every_ratio([&](double, const Simplified& s) {
@@ -320,6 +329,37 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryAlgorithmOnTextures,
                                               return m.has_texture();
                                           }))),
                          variant_and_shape);
+
+// All of it at once on the procedural scenes, which have materials, seams, open borders and flat walls.
+class EverySample : public testing::TestWithParam<std::tuple<Variant, std::string>> {};
+
+TEST_P(EverySample, keeps_what_shapes_keep) {
+    const auto& [variant, sample] = GetParam();
+    for (const Mesh& mesh : make_sample(sample, {.copies = 2, .triangles = 600}).meshes) {
+        for (const double ratio : {0.9, 0.5, 0.1}) {
+            SCOPED_TRACE(testing::Message() << sample << ' ' << mesh.name << ", " << mesh.triangle_count()
+                                            << " triangles, at " << ratio);
+            const Simplified s = simplify(variant, mesh, part_of(mesh, ratio));
+            EXPECT_TRUE(is_consistent(s.mesh));
+            expect_target(mesh, ratio, s);
+            EXPECT_TRUE(test::has_no_new_non_manifold_edge(mesh, s.mesh));
+            EXPECT_TRUE(test::has_no_flipped_triangle(mesh, s.mesh));
+            EXPECT_TRUE(has_sound_triangles(mesh, s.mesh));
+            EXPECT_TRUE(has_sound_values(s.mesh));
+            EXPECT_TRUE(test::keeps_borders(mesh, s.mesh, line_tolerance));
+            EXPECT_TRUE(test::keeps_seams(mesh, s.mesh, line_tolerance));
+            EXPECT_TRUE(test::keeps_uv_orientation(mesh, s.mesh));
+            expect_box(find_algorithm(variant.algorithm), mesh, s.mesh);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EverySample,
+                         testing::Combine(testing::ValuesIn(variants()),
+                                          testing::Values("forest", "city", "bunny13", "baked", "cad")),
+                         [](const testing::TestParamInfo<std::tuple<Variant, std::string>>& tested) {
+                             return test_name(std::get<0>(tested.param), std::get<1>(tested.param).c_str());
+                         });
 
 class EveryUnguardedMode : public EveryAlgorithm {};
 
