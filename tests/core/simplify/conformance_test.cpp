@@ -303,13 +303,16 @@ std::vector<size_t> shapes_that(Rule rule) {
 
 const auto every_variant = testing::ValuesIn(variants());
 
-std::string variant_and_shape(const testing::TestParamInfo<std::tuple<Variant, size_t>>& tested) {
-    const Variant& v = std::get<0>(tested.param);
-    std::string name = v.algorithm;
-    for (const auto& [id, value] : v.parameters) name += "_" + id + "_" + std::get<std::string>(value);
-    name += std::string("_") + drawn()[std::get<1>(tested.param)].name;
+std::string test_name(const Variant& variant, const std::string& shape) {
+    std::string name = variant.algorithm;
+    for (const auto& [id, value] : variant.parameters) name += "_" + id + "_" + std::get<std::string>(value);
+    name += "_" + shape;
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
+}
+
+std::string variant_and_shape(const testing::TestParamInfo<std::tuple<Variant, size_t>>& tested) {
+    return test_name(std::get<0>(tested.param), drawn()[std::get<1>(tested.param)].name);
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryAlgorithm,
@@ -358,7 +361,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EverySample,
                          testing::Combine(testing::ValuesIn(variants()),
                                           testing::Values("forest", "city", "bunny13", "baked", "cad")),
                          [](const testing::TestParamInfo<std::tuple<Variant, std::string>>& tested) {
-                             return test_name(std::get<0>(tested.param), std::get<1>(tested.param).c_str());
+                             return test_name(std::get<0>(tested.param), std::get<1>(tested.param));
                          });
 
 class EveryUnguardedMode : public EveryAlgorithm {};
