@@ -39,9 +39,18 @@ EdgeCollapse::EdgeCollapse(const Mesh& source, const Target& target, const Colla
     watch.check();
 }
 
+// Where the shading has an edge that the texture has not, what moves would get as many texture coordinates as
+// it has normals.
+bool EdgeCollapse::parts_texture(uint32_t vertex) const {
+    if (!uvs_.any()) return false;
+    for (uint32_t w = mesh_.wedge_begin(vertex); w < mesh_.wedge_end(vertex); ++w)
+        if (mesh_.wedge_chart(w) != w) return true;
+    return false;
+}
+
 Freedom EdgeCollapse::freedom_between(uint32_t a, uint32_t b) const {
     const VertexKind kind = features_.kinds[a];
-    if (kind != features_.kinds[b]) return Freedom::end_point;
+    if (kind != features_.kinds[b] || parts_texture(a) || parts_texture(b)) return Freedom::end_point;
     if (kind == VertexKind::manifold) return options_.freedom;
     return is_on_line(a) ? std::min(options_.freedom, Freedom::segment) : Freedom::end_point;
 }

@@ -79,6 +79,7 @@ class EdgeCollapse {
     std::optional<Merge> merge_again(uint32_t owner, uint32_t other);
     std::optional<Merge> place(uint32_t removed, uint32_t kept, Freedom freedom);
     bool allowed(uint32_t removed, uint32_t kept, bool ring_gathered);
+    bool parts_texture(uint32_t vertex) const;
     Freedom freedom_between(uint32_t a, uint32_t b) const;
     bool is_on_line(uint32_t vertex) const {
         return features_.kinds[vertex] == VertexKind::border || features_.kinds[vertex] == VertexKind::seam;

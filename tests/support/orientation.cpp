@@ -62,14 +62,24 @@ class Facing {
     }
 
     // Of the corners and the centroid, each -1..1.
-    double votes_for(const Corners& c) const {
+    double votes_for(const Corners& c, double accuracy = 0) const {
         const Vec3d normal = unit_normal(c);
-        double votes = dot(normal, at((c[0] + c[1] + c[2]) * (1.0 / 3)));
-        for (const Vec3d corner : c) votes += dot(normal, at(corner));
+        double votes = vote((c[0] + c[1] + c[2]) * (1.0 / 3), normal, accuracy);
+        for (const Vec3d corner : c) votes += vote(corner, normal, accuracy);
         return votes;
     }
 
   private:
+    double vote(Vec3d point, Vec3d normal, double accuracy) const {
+        double best = dot(normal, at(point));
+        if (accuracy == 0) return best;
+        for (const uint32_t i : surface_.within(point, surface_.distance_to(point) + accuracy)) {
+            const Surface::Triangle& t = surface_.triangle(i);
+            best = std::max(best, dot(normal, unit_normal({t.a, t.b, t.c})));
+        }
+        return best;
+    }
+
     // A triangle counts by its angle where the nearest point is its corner, else alike.
     double weight_at(Vec3d point, const Corners& c, double nearest) const {
         for (size_t k = 0; k < 3; ++k)
@@ -149,7 +159,7 @@ AssertionResult none_of(size_t count, const Mesh& mesh, const std::string& what,
 
 }  // namespace
 
-AssertionResult has_no_flipped_triangle(const Mesh& before, const Mesh& after) {
+AssertionResult has_no_flipped_triangle(const Mesh& before, const Mesh& after, double accuracy) {
     const Facing original(before);
     std::set<std::array<double, 3>> inside_out;
     for (size_t t = 0; t < before.triangle_count(); ++t) {
@@ -164,7 +174,7 @@ AssertionResult has_no_flipped_triangle(const Mesh& before, const Mesh& after) {
         const bool excused = std::any_of(c.begin(), c.end(), [&](Vec3d p) {
             return inside_out.contains({p.x, p.y, p.z});
         });
-        if (excused || original.votes_for(c) >= -undecided) continue;
+        if (excused || original.votes_for(c, accuracy) >= -undecided) continue;
         if (flipped++ == 0) first = print(t, c);
     }
     return none_of(flipped, after, "are flipped", first);

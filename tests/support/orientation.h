@@ -12,7 +12,12 @@ namespace coppice::test {
 // triangles there, weighted by their angles). A triangle and its mirror image get opposite votes, so that
 // never both pass, but where the original has no outside: where it faces both ways at all four places (sheets
 // back to back), and at corners of triangles that fail this themselves (flaps, inverted faces).
-::testing::AssertionResult has_no_flipped_triangle(const Mesh& before, const Mesh& after);
+//
+// accuracy, in mesh units: where the original also has a surface that is farther than the nearest by no more
+// than that, the one that the triangle faces best counts. A branch that is thinner than the result is
+// accurate has no sides.
+::testing::AssertionResult has_no_flipped_triangle(const Mesh& before, const Mesh& after,
+                                                   double accuracy = 0);
 
 // No triangle has its first texture coordinates in the other winding than the original's triangles around its
 // corners, or has no area there although they do. A corner votes when all the original's triangles that use

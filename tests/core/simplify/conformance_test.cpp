@@ -346,7 +346,7 @@ TEST_P(EverySample, keeps_what_shapes_keep) {
             EXPECT_TRUE(is_consistent(s.mesh));
             expect_target(mesh, ratio, s);
             EXPECT_TRUE(test::has_no_new_non_manifold_edge(mesh, s.mesh));
-            EXPECT_TRUE(test::has_no_flipped_triangle(mesh, s.mesh));
+            EXPECT_TRUE(test::has_no_flipped_triangle(mesh, s.mesh, s.error_model_units));
             EXPECT_TRUE(has_sound_triangles(mesh, s.mesh));
             EXPECT_TRUE(has_sound_values(s.mesh));
             EXPECT_TRUE(test::keeps_borders(mesh, s.mesh, line_tolerance));
