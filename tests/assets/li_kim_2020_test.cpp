@@ -18,8 +18,9 @@ struct Expected {
     double vertices, triangles;
 };
 
-void PrintTo(const Expected& e, std::ostream* out) {
-    *out << e.asset << ' ' << e.algorithm;
+std::ostream& operator<<(std::ostream& out, const Expected& e) {
+    out << e.asset << ' ' << e.algorithm;
+    return out;
 }
 
 class LiKim2020 : public testing::TestWithParam<Expected> {};

@@ -77,8 +77,8 @@ class MeshReader {
         const Pointer where = pointer("meshes", index_, "primitives", p);
         data_.push_back(read_primitive(
             parsed_, primitive,
-            {limits_.triangles - budget_.triangles, limits_.attribute_bytes - budget_.attribute_bytes},
-            where, watch_));
+            {limits_.triangles - budget_.triangles, limits_.attribute_bytes - budget_.attribute_bytes}, where,
+            watch_));
         budget_.triangles += data_.back().triangles.size() / 3;
         require(budget_.triangles <= limits_.triangles, ErrorCode::asset_too_large, where,
                 "the meshes have more than {} triangles (limit triangles)", limits_.triangles);

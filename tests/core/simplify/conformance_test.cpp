@@ -54,9 +54,10 @@ struct Variant {
     std::map<std::string, ParameterValue> parameters = {};
 };
 
-void PrintTo(const Variant& v, std::ostream* out) {
-    *out << v.algorithm;
-    for (const auto& [id, value] : v.parameters) *out << ' ' << id << '=' << std::get<std::string>(value);
+std::ostream& operator<<(std::ostream& out, const Variant& v) {
+    out << v.algorithm;
+    for (const auto& [id, value] : v.parameters) out << ' ' << id << '=' << std::get<std::string>(value);
+    return out;
 }
 
 // Every algorithm as it is by default, and with other modes that guard the surface too.

@@ -106,8 +106,9 @@ struct Wrong {
     std::string message;
 };
 
-void PrintTo(const Wrong& wrong, std::ostream* out) {
-    *out << wrong.message;
+std::ostream& operator<<(std::ostream& out, const Wrong& wrong) {
+    out << wrong.message;
+    return out;
 }
 
 class WrongValue : public testing::TestWithParam<Wrong> {};
