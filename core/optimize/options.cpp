@@ -12,20 +12,26 @@ namespace coppice {
 
 namespace {
 
-// A parameter that means something in one mode of its algorithm alone.
+// A parameter that means something with one choice of another alone.
 struct OfMode {
-    std::string_view algorithm, parameter, mode;
+    std::string_view algorithm, parameter, choice, value;
 };
-constexpr std::array of_modes = {OfMode{"its", "threshold", "faithful"}};
+constexpr std::array of_modes = {
+    OfMode{"its", "threshold", "mode", "faithful"}, OfMode{"gaea", "n", "schema", "uniform"},
+    OfMode{"gaea", "xyz", "schema", "xyz"}, OfMode{"gaea", "codebook_size", "schema", "xyz"}};
 
 void check_modes(const Algorithm& algorithm, const ParameterValues& values, const OptimizeOptions& options) {
     for (const OfMode& rule : of_modes) {
-        const bool is_idle = algorithm.id == rule.algorithm && values.choice("mode") != rule.mode &&
+        const bool is_idle = algorithm.id == rule.algorithm && values.choice(rule.choice) != rule.value &&
                              options.parameters.contains(std::string(rule.parameter));
         require(!is_idle, ErrorCode::option_conflict, fmt::format("parameters.{}", rule.parameter),
-                "parameters.{} belongs to parameters.mode={}, and the mode is {}", rule.parameter, rule.mode,
-                values.choice("mode"));
+                "parameters.{} belongs to parameters.{}={}, and the {} is {}", rule.parameter, rule.choice,
+                rule.value, rule.choice, values.choice(rule.choice));
     }
+    const bool names_two = values.all().contains("xyz") && values.all().contains("codebook_size");
+    require(
+        !names_two, ErrorCode::option_conflict, "parameters.codebook_size",
+        "parameters.xyz and parameters.codebook_size exclude each other: give the one that is the codebook");
 }
 
 }  // namespace

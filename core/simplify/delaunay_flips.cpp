@@ -18,7 +18,8 @@ Vec3d area_normal(Vec3d a, Vec3d b, Vec3d c) {
 
 class Flips {
   public:
-    Flips(CollapseMesh& mesh, const UvGuard& uvs) : mesh_(mesh), uvs_(uvs) {}
+    Flips(CollapseMesh& mesh, const UvGuard& uvs, const MayFlip& may_flip)
+        : mesh_(mesh), uvs_(uvs), may_flip_(may_flip) {}
 
     uint64_t run(const Watch& watch) {
         for (uint32_t corner = 0; corner < 3 * mesh_.triangle_count(); ++corner)
@@ -45,7 +46,7 @@ class Flips {
         if (!is_obtuse(c)) return false;
         const uint32_t a = CollapseMesh::next_corner(c), b = CollapseMesh::previous_corner(c);
         const uint32_t d = across(c);
-        if (d == no_index) return false;
+        if (d == no_index || (may_flip_ && !may_flip_(c / 3, d / 3))) return false;
         const Vec3d pa = at(a), pb = at(b), pc = at(c), pd = at(d);
         const double dot_c = dot(pa - pc, pb - pc), dot_d = dot(pa - pd, pb - pd);
         const Vec3d n_c = area_normal(pc, pa, pb), n_d = area_normal(pd, pb, pa);
@@ -112,14 +113,15 @@ class Flips {
 
     CollapseMesh& mesh_;
     const UvGuard& uvs_;
+    const MayFlip& may_flip_;
     std::vector<uint32_t> open_;  // a queue
     size_t next_ = 0;
 };
 
 }  // namespace
 
-uint64_t delaunay_flips(CollapseMesh& mesh, const UvGuard& uvs, const Watch& watch) {
-    return Flips(mesh, uvs).run(watch);
+uint64_t delaunay_flips(CollapseMesh& mesh, const UvGuard& uvs, const Watch& watch, const MayFlip& may_flip) {
+    return Flips(mesh, uvs, may_flip).run(watch);
 }
 
 }  // namespace coppice

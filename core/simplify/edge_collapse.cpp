@@ -260,6 +260,10 @@ bool EdgeCollapse::may_collapse(uint32_t removed, uint32_t kept) {
     return refusal == Refusal::none;
 }
 
+void EdgeCollapse::flip_edges(const MayFlip& may_flip, const Watch& watch) {
+    delaunay_flips(mesh_, uvs_, watch, may_flip);
+}
+
 Simplified EdgeCollapse::finish(StopReason reason, const Watch& watch) const {
     return {.mesh = mesh_.extract(source_, values_, watch),
             .error_model_units = deviation_.largest(),

@@ -19,6 +19,7 @@
 #include "core/simplify/collapse_error.h"
 #include "core/simplify/collapse_mesh.h"
 #include "core/simplify/collapse_rules.h"
+#include "core/simplify/delaunay_flips.h"
 #include "core/simplify/deviation.h"
 #include "core/simplify/line_guard.h"
 #include "core/simplify/neighbours.h"
@@ -49,6 +50,7 @@ class EdgeCollapse {
     EdgeCollapse& operator=(const EdgeCollapse&) = delete;
 
     const CollapseMesh& mesh() const { return mesh_; }
+    VertexKind kind(uint32_t vertex) const { return features_.kinds[vertex]; }  // at the start
     bool done() const { return count_.is_met(mesh_); }
     double fraction() const { return count_.fraction(mesh_); }  // of the way there, 0..1
 
@@ -62,8 +64,12 @@ class EdgeCollapse {
     // With end points only, for who ranks edges otherwise.
     bool may_collapse(uint32_t removed, uint32_t kept);
 
+    // Delaunay flips (delaunay_flips.h) between collapses.
+    void flip_edges(const MayFlip& may_flip, const Watch& watch);
+
     // Refusals are counted; they explain why nothing is left to collapse.
     void forget_refusals() { refusals_ = {}; }
+    void refuse_beyond_threshold() { refusals_.add_beyond_threshold(); }  // what is not even tried
     StopReason reason_for_refusals() const { return refusals_.reason(); }
 
     Simplified finish(StopReason reason, const Watch& watch) const;

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/base/error.h"
+#include "core/simplify/gaea.h"
 #include "core/simplify/gaps.h"
 #include "core/simplify/garland_heckbert.h"
 #include "core/simplify/ias.h"
@@ -19,8 +20,8 @@
 namespace coppice {
 
 std::span<const Algorithm> algorithms() {
-    static const std::array<Algorithm, 9> list = {its(),  ias(), gaps(), quadric(), vt(),
-                                                  ivdd(), ss(),  vtd(),  openmesh()};
+    static const std::array<Algorithm, 10> list = {its(), ias(),  gaps(), quadric(), gaea(),
+                                                   vt(),  ivdd(), ss(),   vtd(),     openmesh()};
     return list;
 }
 

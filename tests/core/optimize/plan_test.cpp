@@ -142,6 +142,11 @@ TEST(Validate, refuses_what_excludes_each_other) {
     EXPECT_EQ(refused({.ratio = 0.5, .triangles = 10}), ErrorCode::option_conflict);
     EXPECT_EQ(refused({.triangles = 10, .parameters = {{"stop", std::string("vertices")}}}),
               ErrorCode::option_conflict);
+    EXPECT_EQ(refused({.algorithm = "gaea",
+                       .parameters = {{"schema", std::string("xyz")},
+                                      {"xyz", std::string("5-4-3")},
+                                      {"codebook_size", 94.0}}}),
+              ErrorCode::option_conflict);
     EXPECT_EQ(refused({.format = Format::obj, .instancing = Instancing::nodes}), ErrorCode::option_conflict);
     EXPECT_EQ(refused({.format = Format::iobj, .instancing = Instancing::expand}),
               ErrorCode::option_conflict);
@@ -160,6 +165,13 @@ TEST(Validate, refuses_a_parameter_of_another_mode) {
     EXPECT_EQ(refused({.parameters = {{"mode", std::string("full")}, {"threshold", 0.1}}}),
               ErrorCode::option_conflict);
     EXPECT_NO_THROW(validate({.parameters = {{"mode", std::string("faithful")}, {"threshold", 0.1}}}));
+    const std::string xyz = "xyz";
+    EXPECT_EQ(refused({.algorithm = "gaea", .parameters = {{"xyz", std::string("5-4-3")}}}),
+              ErrorCode::option_conflict);
+    EXPECT_EQ(refused({.algorithm = "gaea", .parameters = {{"schema", xyz}, {"n", 3.0}}}),
+              ErrorCode::option_conflict);
+    EXPECT_NO_THROW(
+        validate({.algorithm = "gaea", .parameters = {{"schema", xyz}, {"codebook_size", 94.0}}}));
 }
 
 TEST(Validate, takes_what_is_right) {
