@@ -1,6 +1,7 @@
 #include "core/simplify/normal_patches.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/base/watched_loop.h"
 
@@ -26,10 +27,10 @@ struct HalfEdge {
 
 NormalPatches::NormalPatches(const CollapseMesh& mesh, const Watch& watch)
     : mesh_(mesh),
-      normals_(mesh.triangle_count()),
-      neighbours_(3 * size_t{mesh.triangle_count()}, no_index),
-      patches_(mesh.triangle_count(), no_index),
-      parents_(mesh.triangle_count()) {
+      normals_(watched_vector<Vec3f>(mesh.triangle_count(), watch)),
+      neighbours_(watched_vector(3 * size_t{mesh.triangle_count()}, watch, no_index)),
+      patches_(watched_vector(mesh.triangle_count(), watch, no_index)),
+      parents_(watched_vector<uint32_t>(mesh.triangle_count(), watch)) {
     watched_loop(mesh.triangle_count(), watch, [&](size_t t) {
         if (!mesh.is_live_triangle(static_cast<uint32_t>(t))) return;
         const auto at = [&](size_t k) {
@@ -56,13 +57,14 @@ void NormalPatches::connect(const Watch& watch) {
     std::vector<uint32_t> ends(size_t{mesh_.vertex_count()} + 1);  // of each lower end's edges
     for_each_edge([&](uint32_t lower, uint32_t, uint32_t) { ++ends[lower + 1]; });
     for (size_t v = 1; v < ends.size(); ++v) ends[v] += ends[v - 1];
-    std::vector<HalfEdge> edges(ends.back());
+    auto edges = watched_vector<HalfEdge>(ends.back(), watch);
+    WatchedSteps steps(watch);
     for_each_edge([&](uint32_t lower, uint32_t upper, uint32_t corner) {
         edges[ends[lower]++] = {upper, corner};
     });
     watched_loop(mesh_.vertex_count(), watch, [&](size_t v) {
         const auto first = edges.begin() + (v > 0 ? ends[v - 1] : 0), last = edges.begin() + ends[v];
-        std::sort(first, last);
+        std::sort(first, last, steps.counting(std::less<>()));
         for (auto run = first, end = first; run != last; run = end) {
             while (end != last && end->upper == run->upper) ++end;
             if (end - run != 2) continue;
