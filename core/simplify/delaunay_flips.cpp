@@ -3,6 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/watched_loop.h"
+
 namespace coppice {
 
 namespace {
@@ -22,8 +24,10 @@ class Flips {
         : mesh_(mesh), uvs_(uvs), may_flip_(may_flip) {}
 
     uint64_t run(const Watch& watch) {
-        for (uint32_t corner = 0; corner < 3 * mesh_.triangle_count(); ++corner)
+        watched_loop(3 * size_t{mesh_.triangle_count()}, watch, [&](size_t i) {
+            const auto corner = static_cast<uint32_t>(i);
             if (mesh_.is_live_triangle(corner / 3) && is_obtuse(corner)) open_.push_back(corner);
+        });
         const uint64_t most = 30 * uint64_t{mesh_.live_triangles()};
         uint64_t flips = 0;
         for (uint64_t looked = 0; looked < most && next_ < open_.size(); ++looked) {

@@ -30,7 +30,7 @@
 //   flips
 //     inside patches between collapses.
 //
-// Complexity: O(F log F) time for F triangles, about 370 bytes per triangle.
+// Complexity: O(F log F) time for F triangles, about 230 bytes per triangle.
 #pragma once
 
 #include "core/simplify/algorithm.h"
