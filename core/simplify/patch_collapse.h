@@ -15,7 +15,7 @@ namespace coppice {
 
 struct PatchOptions {
     Warp warp = Warp::flat;
-    uint32_t refinements = 3;  // of the codebook, see NormalPatches::group
+    uint32_t refinements = 2;  // of the codebook, see NormalPatches::group
     bool triangulate = false;  // patches get the Delaunay triangulation of what is left of them
 };
 
