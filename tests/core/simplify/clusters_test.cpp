@@ -110,6 +110,16 @@ TEST(DelaunayFlips, leave_creases_and_seams) {
     EXPECT_EQ(delaunay_flips(mesh, uvs, {}), 0U);
 }
 
+TEST(DelaunayFlips, leave_edges_that_may_not_flip) {
+    const Mesh source = badly_cut();
+    CollapseMesh mesh(source);
+    const UvGuard uvs(mesh, source, {});
+    const auto flips =
+        delaunay_flips(mesh, uvs, {}, [](uint32_t a, uint32_t b) { return std::min(a, b) > 1; });
+    EXPECT_GT(flips, 0U);
+    for (uint32_t c = 0; c < 6; ++c) EXPECT_EQ(mesh.corner_vertex(c), source.corner_vertex(c / 3, c % 3));
+}
+
 class ContractionOfAGrid : public testing::Test {
   protected:
     // Vertex of a grid of 9 by 9.
