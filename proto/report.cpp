@@ -95,13 +95,23 @@ std::string_view type_name(Parameter::Kind kind) {
     return {};
 }
 
+// A whole number where it is one: 2, not 2.0.
+Json number_of(Parameter::Kind kind, double value) {
+    if (kind == Parameter::Kind::integer) return static_cast<int64_t>(value);
+    return value;
+}
+
 Json to_json(const Parameter& parameter) {
     Json json = {{"id", parameter.id}, {"title", parameter.title}, {"type", type_name(parameter.kind)}};
     if (!parameter.unit.empty()) json["unit"] = parameter.unit;
-    if (parameter.default_value) json["default"] = to_json(*parameter.default_value);
+    if (parameter.default_value) {
+        const auto* number = std::get_if<double>(&*parameter.default_value);
+        json["default"] = number ? number_of(parameter.kind, *number) : to_json(*parameter.default_value);
+    }
     if (parameter.minimum)
-        json[parameter.minimum_excluded ? "exclusive_minimum" : "minimum"] = *parameter.minimum;
-    if (parameter.maximum) json["maximum"] = *parameter.maximum;
+        json[parameter.minimum_excluded ? "exclusive_minimum" : "minimum"] =
+            number_of(parameter.kind, *parameter.minimum);
+    if (parameter.maximum) json["maximum"] = number_of(parameter.kind, *parameter.maximum);
     if (!parameter.choices.empty()) json["choices"] = parameter.choices;
     if (!parameter.pattern.empty()) json["pattern"] = fmt::format("^(?:{})$", parameter.pattern);
     return json;

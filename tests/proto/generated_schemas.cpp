@@ -19,6 +19,7 @@ std::string quote(std::string_view text) {
 }
 
 std::string print(const ParameterValue& value) {
+    if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
     return std::visit([](const auto& held) { return nlohmann::json(held).dump(); }, value);
 }
 
