@@ -1,5 +1,5 @@
 // OpenMesh's quadric decimater, nothing added: what the speed of others is measured by. Apart from the
-// benchmarks, since it is compiled without their checks.
+// benchmarks, since it is compiled without their checks, and without those of Debian's library of OpenMesh.
 #pragma once
 
 #include <cstddef>

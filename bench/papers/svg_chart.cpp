@@ -11,7 +11,7 @@ namespace {
 // Pixels.
 constexpr double panel_width = 440, panel_height = 400, gap = 30, left = 64, top = 64, bottom = 52,
                  right = 16;
-constexpr double radius = 4, letter = 6.4, line = 13;
+constexpr double radius = 4, letter = 7.2, line = 13;
 
 struct Axis {
     double least = 0, most = 0;  // values
