@@ -6,6 +6,8 @@
 #include <array>
 
 #include "core/base/error.h"
+#include "core/simplify/fad.h"
+#include "core/simplify/fass.h"
 #include "core/simplify/gaps.h"
 #include "core/simplify/garland_heckbert.h"
 #include "core/simplify/ias.h"
@@ -13,14 +15,16 @@
 #include "core/simplify/ivdd.h"
 #include "core/simplify/openmesh.h"
 #include "core/simplify/ss.h"
+#include "core/simplify/surface_angle.h"
 #include "core/simplify/vt.h"
 #include "core/simplify/vtd.h"
 
 namespace coppice {
 
 std::span<const Algorithm> algorithms() {
-    static const std::array<Algorithm, 9> list = {its(),  ias(), gaps(), quadric(), vt(),
-                                                  ivdd(), ss(),  vtd(),  openmesh()};
+    static const std::array<Algorithm, 12> list = {its(),  ias(),     gaps(), quadric(), surface_angle(),
+                                                   vt(),   fad(),     ivdd(), ss(),      vtd(),
+                                                   fass(), openmesh()};
     return list;
 }
 
