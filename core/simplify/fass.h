@@ -9,8 +9,9 @@
 // any target, or the one that meets it, found by search. threshold_used is that of the stage that came last:
 // the radius, or the angle where the target was met before. Guarantees: those of both: no new non-manifold
 // edge, no flipped, degenerate or duplicate triangle; borders, seams and the box stay; attributes as in ss.h.
-// Where the original has texture beside what has none, the second stage may mirror a sliver: how the texture is
-// wound it knows from what the first left. With neighborhood=euclidean the second stage is unguarded, as printed. The estimates of the error add up.
+// Where the original has texture beside what has none, the second stage may mirror a sliver: how the texture
+// is wound it knows from what the first left. With neighborhood=euclidean the second stage is unguarded, as
+// printed. The estimates of the error add up.
 //
 // Complexity: O(F log F) time, about 250 bytes per triangle.
 #pragma once
