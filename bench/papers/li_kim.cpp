@@ -1,4 +1,4 @@
-// The papers of Li and Kim. The six algorithms of 2020 are printed without counts: those beside ours were
+// The six algorithms of Li and Kim, 2020, are printed without counts: those beside ours were
 // computed once by small programs that do no more than the text says, before flips.
 #include <fmt/core.h>
 

@@ -26,6 +26,7 @@ constexpr Table tables[] = {
     {"its_instances", coppice::papers::print_its_instances},
     {"its_deviation", coppice::papers::print_its_deviation},
     {"gaea", coppice::papers::print_gaea},
+    {"surface_angle", coppice::papers::print_surface_angle},
     {"li_kim", coppice::papers::print_li_kim},
     {"errors", coppice::papers::print_errors},
     {"speed", coppice::papers::print_speed},

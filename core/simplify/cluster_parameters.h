@@ -33,6 +33,17 @@ inline const Parameter passes_parameter = {
     .maximum = 16,
     .ends_run = true};
 
+inline constexpr std::array<std::string_view, 2> neighborhoods = {"connected", "euclidean"};
+inline const Parameter neighborhood_parameter = {
+    .id = "neighborhood",
+    .title =
+        "connected: what edges connect to the ball's centre; euclidean: all that is in the ball, without "
+        "any guard of the surface",
+    .kind = Parameter::Kind::choice,
+    .default_value = "connected",
+    .choices = neighborhoods,
+    .unguarded_choice = "euclidean"};
+
 inline Parameter length_parameter(std::string_view id, std::string_view title) {
     return {.id = id,
             .title = title,

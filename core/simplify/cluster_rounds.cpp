@@ -31,7 +31,8 @@ RoundsDone run_rounds(ClusterStage& stage, const Target& target, const RoundOpti
         double threshold = most, promised = 0;
         if (seeks) {
             const double saving = (before - stage.target_triangles()) / accepted;
-            const double usual = std::min(most, stage.usual_threshold());
+            const bool last = round + 1 == rounds, patient = options.patient && !last;
+            const double usual = std::min(most, (patient ? widened : 1) * stage.usual_threshold());
             const auto count = [&](double t) {
                 watch.check();
                 return t > 0 ? stage.count(t) : before;
@@ -39,14 +40,13 @@ RoundsDone run_rounds(ClusterStage& stage, const Target& target, const RoundOpti
             ThresholdSearch search = {
                 .most = usual, .target = std::max(0.0, before - saving), .tolerance = 0.01};
             ThresholdFound found = search_threshold(search, count);  // cheap where it is enough
-            if (!found.reached && usual < most) {
+            if (!found.reached && usual < most && !patient) {
                 search.least = usual, search.most = most;
                 found = search_threshold(search, count);
             }
-            const bool last = round + 1 == rounds;
-            threshold =
-                found.reached || last ? found.threshold : std::min(most, widened * stage.usual_threshold());
-            promised = before - (found.reached ? found.count : stage.count(threshold));
+            threshold = found.reached || last || patient ? found.threshold
+                                                         : std::min(most, widened * stage.usual_threshold());
+            promised = before - (threshold == found.threshold ? found.count : stage.count(threshold));
         }
         stage.run(threshold, watch);
         watch.report(stage.fraction());

@@ -33,6 +33,9 @@ class ClusterStage {
 struct RoundOptions {
     std::optional<double> threshold = {};  // the algorithm's own, mesh units
     std::optional<uint32_t> rounds = {};
+    // Goes beyond the usual threshold only where further rounds at it no longer help: for merges that leave
+    // as much to do at the same threshold.
+    bool patient = false;
 };
 
 struct RoundsDone {

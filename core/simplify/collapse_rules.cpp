@@ -16,13 +16,15 @@ constexpr double least_cosine_since_start = 0.2;
 // Mean over the corners, to where the surface faced there. Thin triangles across a crease lie near the
 // surface, but may face anywhere.
 constexpr double least_cosine_to_corners = 0.25;
+// Beyond a third the rest of the surface there cannot outvote the corners.
+constexpr double least_cosine_of_filling = 0.34;
 // A triangle is degenerate when twice its area is below this part of its longest edge squared: in single
 // precision its normal would mean nothing.
 constexpr double degenerate_aspect = 1e-6;
 
 bool is_degenerate(Vec3d a, Vec3d b, Vec3d c, Vec3d normal) {
     const double longest = std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
-    return length(normal) <= degenerate_aspect * longest;
+    return squared_length(normal) <= degenerate_aspect * degenerate_aspect * longest * longest;
 }
 
 Vec3d area_normal(Vec3d a, Vec3d b, Vec3d c) {
@@ -208,6 +210,19 @@ bool CollapseRules::keeps_orientation(uint32_t corner, Vec3d to, Vec3f facing) c
     const double agreement = agreement_with_corners(after, {facing, ahead, behind});
     return agreement >= least_cosine_to_corners ||
            (!was_degenerate && agreement >= agreement_with_corners(before, {facing_[vertex], ahead, behind}));
+}
+
+std::optional<Vec3f> CollapseRules::normal_of_filling(const std::array<uint32_t, 3>& vertices,
+                                                      Vec3f facing) const {
+    const Vec3d a = mesh_.position(vertices[0]), b = mesh_.position(vertices[1]),
+                c = mesh_.position(vertices[2]);
+    const Vec3d area = area_normal(a, b, c);
+    if (is_degenerate(a, b, c, area)) return {};
+    const Vec3d normal = normalized(area);
+    if (facing != Vec3f{} && dot(to_double(facing), normal) < least_cosine_at_once) return {};
+    const std::array<Vec3f, 3> corners = {facing_[vertices[0]], facing_[vertices[1]], facing_[vertices[2]]};
+    if (agreement_with_corners(normal, corners) < least_cosine_of_filling) return {};
+    return to_float(normal);
 }
 
 }  // namespace coppice

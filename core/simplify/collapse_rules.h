@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/simplify/collapse_mesh.h"
@@ -50,10 +51,17 @@ class CollapseRules {
     // where the surface faced `facing` (unit, or zero where that is not known).
     bool keeps_orientation(uint32_t corner, Vec3d to, Vec3f facing) const;
 
+    // The same of a triangle that takes the place of others, between vertices that stay: its unit normal, or
+    // none if it may not be. facing: of what it replaces.
+    std::optional<Vec3f> normal_of_filling(const std::array<uint32_t, 3>& vertices, Vec3f facing) const;
+
     VertexKind kind(uint32_t vertex) const { return kinds_[vertex]; }
     // Where the surface faced at a vertex at the start. Of one that stands for several now, their mean.
     Vec3f facing(uint32_t vertex) const { return facing_[vertex]; }
     void set_facing(uint32_t vertex, Vec3f facing) { facing_[vertex] = facing; }
+
+    // Of each triangle at the start: unit, zero where it had no area.
+    const std::vector<Vec3f>& first_normals() const { return first_normals_; }
 
     // The first part of check().
     bool keeps_topology(uint32_t removed, uint32_t kept);
@@ -66,7 +74,7 @@ class CollapseRules {
 
     const CollapseMesh& mesh_;
     std::vector<VertexKind> kinds_;
-    std::vector<Vec3f> first_normals_;  // per triangle at the start; unit, zero when degenerate
+    std::vector<Vec3f> first_normals_;  // see first_normals()
     std::vector<Vec3f> facing_;         // per vertex, where the surface faced at the start; see facing()
     Neighbours around_removed_, around_kept_;
     std::vector<uint32_t> shared_;  // per neighbour of `removed`: triangles that also hold `kept`

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/watched_loop.h"
+#include "core/simplify/neighbours.h"
 
 namespace coppice {
 
@@ -70,7 +71,7 @@ class Flips {
         if (uvs_.any() && (!uvs_.is_wound_well({wa, wd, wc}) || !uvs_.is_wound_well({wb, wc, wd})))
             return false;
         const uint32_t vc = mesh_.corner_vertex(c), vd = mesh_.corner_vertex(d);
-        if (has_edge(vc, vd)) return false;
+        if (edge_uses(mesh_, vc, vd) > 0) return false;
         mesh_.set_corner(b, vd, wd);   // (c, a, d)
         mesh_.set_corner(a2, vc, wc);  // (d, b, c)
         for (const uint32_t corner : {c, a, b, d, a2, b2})
@@ -94,17 +95,6 @@ class Flips {
             found = next;
         }
         return found;
-    }
-
-    bool has_edge(uint32_t v, uint32_t w) const {
-        if (mesh_.valence(v) > mesh_.valence(w)) std::swap(v, w);
-        if (mesh_.valence(v) > longest_ring) return true;  // too long to search
-        for (uint32_t x = mesh_.first_corner(v); x != no_index; x = mesh_.corner_after(x)) {
-            if (mesh_.corner_vertex(CollapseMesh::next_corner(x)) == w ||
-                mesh_.corner_vertex(CollapseMesh::previous_corner(x)) == w)
-                return true;
-        }
-        return false;
     }
 
     static bool is_sound(Vec3d a, Vec3d b, Vec3d c, Vec3d facing) {

@@ -15,12 +15,16 @@ double distance_to_segment(Vec3d p, Vec3d a, Vec3d b) {
 
 }  // namespace
 
-double distance_to_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
+std::optional<double> distance_from_above(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
     const Vec3d normal = cross(b - a, c - a);
     const double size = length(normal);
     const bool inside = size > 0 && dot(cross(b - a, p - a), normal) >= 0 &&
                         dot(cross(c - b, p - b), normal) >= 0 && dot(cross(a - c, p - c), normal) >= 0;
-    if (inside) return std::abs(dot(p - a, normal)) / size;
+    return inside ? std::optional(std::abs(dot(p - a, normal)) / size) : std::nullopt;
+}
+
+double distance_to_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
+    if (const auto distance = distance_from_above(p, a, b, c)) return *distance;
     return std::min(
         {distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
 }

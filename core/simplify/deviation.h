@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/base/watched_loop.h"
@@ -11,6 +12,9 @@ namespace coppice {
 
 // Distance from a point to a triangle, inside and edges included.
 double distance_to_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c);
+
+// The same where the nearest point of the triangle's plane is inside; else none.
+std::optional<double> distance_from_above(Vec3d p, Vec3d a, Vec3d b, Vec3d c);
 
 class Deviation {
   public:

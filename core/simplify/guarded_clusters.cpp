@@ -17,17 +17,7 @@ class GuardedStage final : public ClusterStage {
     bool done() const override { return work_.done(); }
     double fraction() const override { return work_.fraction(); }
 
-    // A vertex less is two triangles less.
-    double target_triangles() const override {
-        const double now = work_.mesh().live_triangles();
-        double most = 0;
-        if (target_.triangles) most = static_cast<double>(*target_.triangles);
-        if (target_.vertices) {
-            const double vertices = work_.mesh().live_vertices();
-            most = std::max(most, now - 2 * (vertices - static_cast<double>(*target_.vertices)));
-        }
-        return std::min(most, now);
-    }
+    double target_triangles() const override { return triangles_when_met(target_, work_.mesh()); }
 
     void begin_round(const Watch& watch) override {
         work_.forget_refusals();

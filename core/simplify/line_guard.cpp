@@ -69,6 +69,14 @@ void LineGuard::remove(uint32_t removed, uint32_t kept) {
     relink(other, removed, {kept, away});
 }
 
+double LineGuard::turn_cosine(uint32_t vertex) const {
+    if (!on_line_[vertex]) return 1;
+    const auto [one, other] = next_[vertex];
+    if (one.vertex == no_index || other.vertex == no_index) return -1;
+    const Vec3d p = mesh_.position(vertex);
+    return dot(normalized(p - mesh_.position(one.vertex)), normalized(mesh_.position(other.vertex) - p));
+}
+
 std::optional<LineGuard::Stretch> LineGuard::stretch(std::span<const uint32_t> vertices, Vec3d point) const {
     const auto holds = [&](uint32_t v) {
         return std::find(vertices.begin(), vertices.end(), v) != vertices.end();

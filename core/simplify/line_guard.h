@@ -23,6 +23,9 @@ class LineGuard {
     // tolerance in mesh units.
     LineGuard(const CollapseMesh& mesh, const Features& features, double tolerance, const Watch& watch = {});
 
+    // Cosine of the angle by which its line turns at a vertex; 1 off lines.
+    double turn_cosine(uint32_t vertex) const;
+
     // Whether the line of `removed`, drawn straight from `kept` to its other neighbour, is near enough. True
     // for vertices of no line.
     bool may_remove(uint32_t removed, uint32_t kept) const;

@@ -3,12 +3,27 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/base/watched_loop.h"
 #include "core/simplify/collapse_mesh.h"
 
 namespace coppice {
+
+// Triangles at the edge between two vertices; 0 where there is none, no_index where both have so many
+// triangles that a search would take long.
+inline uint32_t edge_uses(const CollapseMesh& mesh, uint32_t v, uint32_t w) {
+    constexpr uint32_t longest_search = 64;
+    if (mesh.valence(v) > mesh.valence(w)) std::swap(v, w);
+    if (mesh.valence(v) > longest_search) return no_index;
+    uint32_t uses = 0;
+    for (uint32_t c = mesh.first_corner(v); c != no_index; c = mesh.corner_after(c)) {
+        uses += mesh.corner_vertex(CollapseMesh::next_corner(c)) == w ||
+                mesh.corner_vertex(CollapseMesh::previous_corner(c)) == w;
+    }
+    return uses;
+}
 
 class Neighbours {
   public:

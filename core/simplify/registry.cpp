@@ -6,6 +6,8 @@
 #include <array>
 
 #include "core/base/error.h"
+#include "core/simplify/fad.h"
+#include "core/simplify/fass.h"
 #include "core/simplify/gaea.h"
 #include "core/simplify/gaps.h"
 #include "core/simplify/garland_heckbert.h"
@@ -14,14 +16,16 @@
 #include "core/simplify/ivdd.h"
 #include "core/simplify/openmesh.h"
 #include "core/simplify/ss.h"
+#include "core/simplify/surface_angle.h"
 #include "core/simplify/vt.h"
 #include "core/simplify/vtd.h"
 
 namespace coppice {
 
 std::span<const Algorithm> algorithms() {
-    static const std::array<Algorithm, 10> list = {its(), ias(),  gaps(), quadric(), gaea(),
-                                                   vt(),  ivdd(), ss(),   vtd(),     openmesh()};
+    static const std::array<Algorithm, 13> list = {its(),           ias(),  gaps(),    quadric(), gaea(),
+                                                   surface_angle(), vt(),   fad(),     ivdd(),    ss(),
+                                                   vtd(),           fass(), openmesh()};
     return list;
 }
 

@@ -90,17 +90,10 @@ uint64_t scan_as_printed(const Mesh& source, VertexClusters& clusters, double ra
 }
 
 std::span<const Parameter> parameters() {
-    static constexpr std::array<std::string_view, 2> neighborhoods = {"connected", "euclidean"};
     static const std::array<Parameter, 3> list = {{
         length_parameter("radius",
                          "vertices in a ball of this radius are merged; found by search unless given"),
-        {.id = "neighborhood",
-         .title = "connected: what edges connect to the ball's centre; euclidean: all that is in the ball, "
-                  "without any guard of the surface",
-         .kind = Parameter::Kind::choice,
-         .default_value = "connected",
-         .choices = neighborhoods,
-         .unguarded_choice = "euclidean"},
+        neighborhood_parameter,
         passes_parameter,
     }};
     return list;
@@ -108,25 +101,29 @@ std::span<const Parameter> parameters() {
 
 Simplified simplify(const Mesh& source, std::span<const Transform>, const Target& target,
                     const ParameterValues& values, const Watch& watch) {
-    const RoundOptions options = {.threshold = threshold_in(source, values.length("radius")),
-                                  .rounds = rounds_in(values)};
-    if (values.choice("neighborhood") == "connected") return scan_spheres(source, target, options, watch);
-    watch.check();
-    if (is_small_enough(source, target)) return already_smaller(source, watch);
-    const PlainPass pass = [&](VertexClusters& clusters, double radius, uint64_t most) {
-        return scan_as_printed(source, clusters, radius, most, watch);
-    };
-    return simplify_by_plain_clusters(source, target, pass, options, watch);
+    return scan_spheres(
+        source, target, neighborhood_in(values),
+        {.threshold = threshold_in(source, values.length("radius")), .rounds = rounds_in(values)}, watch);
 }
 
 }  // namespace
 
-Simplified scan_spheres(const Mesh& source, const Target& target, const RoundOptions& radius_and_rounds,
-                        const Watch& watch) {
+Neighborhood neighborhood_in(const ParameterValues& values) {
+    return values.choice("neighborhood") == "euclidean" ? Neighborhood::euclidean : Neighborhood::connected;
+}
+
+Simplified scan_spheres(const Mesh& source, const Target& target, Neighborhood neighborhood,
+                        const RoundOptions& radius_and_rounds, const Watch& watch) {
     watch.check();
     if (is_small_enough(source, target)) return already_smaller(source, watch);
-    SphereRule rule;
-    return simplify_by_guarded_clusters(source, target, rule, radius_and_rounds, watch);
+    if (neighborhood == Neighborhood::connected) {
+        SphereRule rule;
+        return simplify_by_guarded_clusters(source, target, rule, radius_and_rounds, watch);
+    }
+    const PlainPass pass = [&](VertexClusters& clusters, double radius, uint64_t most) {
+        return scan_as_printed(source, clusters, radius, most, watch);
+    };
+    return simplify_by_plain_clusters(source, target, pass, radius_and_rounds, watch);
 }
 
 Algorithm ss() {

@@ -25,9 +25,11 @@ namespace coppice {
 
 Algorithm ss();
 
-// For algorithms that end with it: over all that is larger than the target, connected and guarded. radius in
-// mesh units.
-Simplified scan_spheres(const Mesh& source, const Target& target, const RoundOptions& radius_and_rounds,
-                        const Watch& watch);
+enum class Neighborhood { connected, euclidean };
+Neighborhood neighborhood_in(const ParameterValues& values);
+
+// For algorithms that end with it: over all that is larger than the target. radius in mesh units.
+Simplified scan_spheres(const Mesh& source, const Target& target, Neighborhood neighborhood,
+                        const RoundOptions& radius_and_rounds, const Watch& watch);
 
 }  // namespace coppice

@@ -21,6 +21,15 @@ bool is_small_enough(const Mesh& mesh, const Target& target) {
     return target.vertices && mesh.vertex_count() <= *target.vertices;
 }
 
+double triangles_when_met(const Target& target, const CollapseMesh& mesh) {
+    const double now = mesh.live_triangles();
+    double most = 0;
+    if (target.triangles) most = static_cast<double>(*target.triangles);
+    if (target.vertices)
+        most = std::max(most, now - 2 * (mesh.live_vertices() - static_cast<double>(*target.vertices)));
+    return std::min(most, now);
+}
+
 Simplified already_smaller(const Mesh& mesh, const Watch& watch) {
     Simplified same = {.mesh = mesh, .stop_reason = StopReason::already_smaller};
     drop_unused(same.mesh, watch);

@@ -10,6 +10,14 @@ namespace coppice {
 // Nothing to do. An empty mesh is always small enough.
 bool is_small_enough(const Mesh& mesh, const Target& target);
 
+// Whether there is anything to reach.
+inline bool is_set(const Target& target) {
+    return target.triangles || target.vertices || target.error_model_units;
+}
+
+// Triangles at which the target will be met, about: a vertex less is two triangles less. 0 without a count.
+double triangles_when_met(const Target& target, const CollapseMesh& mesh);
+
 // The mesh as it is, without what no triangle uses.
 Simplified already_smaller(const Mesh& mesh, const Watch& watch);
 

@@ -100,5 +100,21 @@ TEST(Report, lists_every_algorithm_with_its_parameters) {
     EXPECT_EQ(mode["default"], "full");
 }
 
+TEST(Report, prints_whole_numbers_as_whole_numbers) {
+    const json printed = json::parse(print_algorithms());
+    size_t seen = 0;
+    for (const json& algorithm : printed["algorithms"]) {
+        for (const json& parameter : algorithm["parameters"]) {
+            if (parameter["type"] != "integer") continue;
+            for (const char* part : {"default", "minimum", "maximum"}) {
+                if (!parameter.contains(part)) continue;
+                EXPECT_TRUE(parameter[part].is_number_integer()) << parameter;
+                ++seen;
+            }
+        }
+    }
+    EXPECT_GT(seen, 0U);
+}
+
 }  // namespace
 }  // namespace coppice
