@@ -51,6 +51,10 @@ Json to_json(const InstanceMapping& mapping) {
     return {{"node", mapping.node}, {"mesh", mapping.mesh}, {"instance", mapping.instance}};
 }
 
+Json to_json(const PrunedInstance& pruned) {
+    return {{"node", pruned.node}, {"instance", pruned.instance}};
+}
+
 Json to_json(const std::optional<double>& number) {
     return number ? Json(*number) : Json(nullptr);
 }
@@ -130,7 +134,8 @@ Json to_json(const InstancingReport& instancing) {
     return {{"given", instancing.given},
             {"discovered", instancing.discovered},
             {"unique", instancing.unique},
-            {"map", list(instancing.map)}};
+            {"map", list(instancing.map)},
+            {"pruned", list(instancing.pruned)}};
 }
 
 Json to_json(const Algorithm& algorithm) {

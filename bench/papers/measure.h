@@ -38,7 +38,7 @@ inline Simplified simplify(const Algorithm& algorithm, const Mesh& mesh, uint64_
     if (algorithm.simplify_scene == nullptr) return algorithm.simplify(mesh, {}, target, values, {});
     const std::vector<std::vector<Transform>> one = {{Transform{}}};
     const SceneTarget scene = {.triangles = triangles, .of_mesh = {Target{}}};
-    return algorithm.simplify_scene(std::span(&mesh, 1), one, scene, values, {}).front();
+    return algorithm.simplify_scene(std::span(&mesh, 1), one, scene, values, {}).meshes.front();
 }
 
 }  // namespace coppice::papers

@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/optimize/check.h"
+#include "core/optimize/drop_instances.h"
 #include "core/optimize/engine.h"
 #include "core/optimize/plan.h"
 #include "core/optimize/simplify_meshes.h"
@@ -64,16 +65,22 @@ std::vector<MeshReport> mesh_reports(const Scene& scene, const Placement& placem
     return reports;
 }
 
-// The input's instances, in their order, against the ones that are written.
-std::vector<InstanceMapping> map_instances(const std::vector<Instance>& before, const Scene& written,
+// The input's instances but for the pruned ones, in their order, against the ones that are written.
+std::vector<InstanceMapping> map_instances(const std::vector<Instance>& before,
+                                           std::span<const PrunedInstance> pruned, const Scene& written,
                                            bool flattened, const Watch& watch) {
     const std::vector<Instance> after = flattened ? std::vector<Instance>{} : instances(written, watch);
     std::vector<InstanceMapping> map;
-    for (size_t i = 0; i < before.size(); ++i) {
+    for (const Instance& instance : before) {
+        if (!pruned.empty() && pruned.front() == PrunedInstance{instance.node, instance.in_batch}) {
+            pruned = pruned.subspan(1);
+            continue;
+        }
+        const size_t i = map.size();
         if (flattened) {
-            map.push_back({before[i].node, static_cast<uint32_t>(i), 0});
+            map.push_back({instance.node, static_cast<uint32_t>(i), 0});
         } else {
-            map.push_back({before[i].node, after[i].mesh, after[i].in_batch});
+            map.push_back({instance.node, after[i].mesh, after[i].in_batch});
         }
     }
     return map;
@@ -102,7 +109,7 @@ void describe(Report& report, const Algorithm& algorithm, const OptimizeOptions&
 std::vector<MeshReport> simplify(Scene& scene, const Placement& placement, const Algorithm& algorithm,
                                  const OptimizeOptions& options, const Watch& watch, Report& report) {
     std::vector<Target> targets;
-    std::vector<Simplified> simplified;
+    SimplifiedScene simplified;
     if (algorithm.simplify_scene != nullptr) {
         const SceneTarget target = plan_scene_target(scene, placement, algorithm, options);
         simplified =
@@ -110,13 +117,18 @@ std::vector<MeshReport> simplify(Scene& scene, const Placement& placement, const
         targets = target.of_mesh;
     } else {
         targets = plan_targets(scene, placement, algorithm, report.parameters, options);
-        simplified = simplify_meshes(scene.meshes, placement, targets, algorithm, report.parameters,
-                                     options.threads, watch);
+        simplified.meshes = simplify_meshes(scene.meshes, placement, targets, algorithm, report.parameters,
+                                            options.threads, watch);
     }
-    std::vector<MeshReport> reports = mesh_reports(scene, placement, simplified);
-    report.thresholds_used = thresholds(simplified);
-    append(report.warnings, check_result(scene, placement, targets, simplified, options));
-    for (size_t i = 0; i < simplified.size(); ++i) scene.meshes[i] = std::move(simplified[i].mesh);
+    std::vector<MeshReport> reports = mesh_reports(scene, placement, simplified.meshes);
+    report.thresholds_used = thresholds(simplified.meshes);
+    append(report.warnings, check_result(scene, placement, targets, simplified.meshes, options));
+    for (size_t i = 0; i < scene.meshes.size(); ++i) scene.meshes[i] = std::move(simplified.meshes[i].mesh);
+    report.instancing.pruned = drop_instances(scene, placement, simplified.dropped_instances);
+    if (report.instancing.pruned.empty()) return reports;
+    report.warnings.push_back(pruned_warning(report.instancing.pruned.size(), placement.instances.size()));
+    for (size_t i = 0; i < reports.size(); ++i)
+        reports[i].instances -= simplified.dropped_instances[i].size();
     return reports;
 }
 
@@ -137,9 +149,10 @@ WrittenAsset write(Scene& scene, const Placement& placement, const WriteOptions&
     report.output = summarize(scene, counts, output.format, asset.bytes.size());
     report.savings = savings(report.input.bytes, report.output.bytes, asset.mesh_bytes,
                              flattened ? std::vector<uint64_t>{} : counts);
-    report.instancing = {.given = placement.instances.size(),
-                         .unique = report.output.meshes,
-                         .map = map_instances(placement.instances, scene, flattened, watch)};
+    report.instancing.given = placement.instances.size();
+    report.instancing.unique = report.output.meshes;
+    report.instancing.map =
+        map_instances(placement.instances, report.instancing.pruned, scene, flattened, watch);
     return asset;
 }
 

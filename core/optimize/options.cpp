@@ -12,26 +12,38 @@ namespace coppice {
 
 namespace {
 
-// A parameter that means something with one choice of another alone.
+// A parameter that means something with one choice of another alone, or with a switch that is on.
 struct OfMode {
     std::string_view algorithm, parameter, choice, value;
 };
 constexpr std::array of_modes = {
     OfMode{"its", "threshold", "mode", "faithful"}, OfMode{"gaea", "n", "schema", "uniform"},
-    OfMode{"gaea", "xyz", "schema", "xyz"}, OfMode{"gaea", "codebook_size", "schema", "xyz"}};
+    OfMode{"gaea", "xyz", "schema", "xyz"}, OfMode{"gaea", "codebook_size", "schema", "xyz"},
+    OfMode{"ias", "seed", "prune_instances", "true"}};
+
+std::string_view chosen(const ParameterValues& values, std::string_view id) {
+    const auto found = values.all().find(id);
+    if (found == values.all().end() || !std::holds_alternative<bool>(found->second)) return values.choice(id);
+    return values.boolean(id) ? "true" : "false";
+}
 
 void check_modes(const Algorithm& algorithm, const ParameterValues& values, const OptimizeOptions& options) {
     for (const OfMode& rule : of_modes) {
-        const bool is_idle = algorithm.id == rule.algorithm && values.choice(rule.choice) != rule.value &&
+        const bool is_idle = algorithm.id == rule.algorithm && chosen(values, rule.choice) != rule.value &&
                              options.parameters.contains(std::string(rule.parameter));
         require(!is_idle, ErrorCode::option_conflict, fmt::format("parameters.{}", rule.parameter),
                 "parameters.{} belongs to parameters.{}={}, and the {} is {}", rule.parameter, rule.choice,
-                rule.value, rule.choice, values.choice(rule.choice));
+                rule.value, rule.choice, chosen(values, rule.choice));
     }
     const bool names_two = values.all().contains("xyz") && values.all().contains("codebook_size");
     require(
         !names_two, ErrorCode::option_conflict, "parameters.codebook_size",
         "parameters.xyz and parameters.codebook_size exclude each other: give the one that is the codebook");
+    require(
+        !values.boolean("prune_instances") || (!options.triangles && !options.error),
+        ErrorCode::option_conflict, "parameters.prune_instances",
+        "parameters.prune_instances drops what is drawn to meet ratio: a target in stored triangles and a "
+        "limit of the error exclude it");
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ struct StageTimes {
 
 struct MeshReport {
     std::string name;
-    uint64_t instances = 0;
+    uint64_t instances = 0;  // in the result
     uint64_t triangles_in = 0;
     uint64_t triangles_out = 0;
     double error_model_units = 0;
@@ -54,11 +54,20 @@ struct InstanceMapping {
     uint32_t instance = 0;  // index in the node's batch
 };
 
+// An instance of the input that is not in the output.
+struct PrunedInstance {
+    uint32_t node = 0;      // input node index
+    uint32_t instance = 0;  // index in the input node's batch
+
+    friend bool operator==(const PrunedInstance&, const PrunedInstance&) = default;
+};
+
 struct InstancingReport {
-    uint64_t given = 0;       // instances in the input
-    uint64_t discovered = 0;  // copies that were found and shared; 0 until discovery exists
-    uint64_t unique = 0;      // unique meshes in the output
-    std::vector<InstanceMapping> map;
+    uint64_t given = 0;                  // instances in the input
+    uint64_t discovered = 0;             // copies that were found and shared; 0 until discovery exists
+    uint64_t unique = 0;                 // unique meshes in the output
+    std::vector<InstanceMapping> map;    // of those that were not pruned
+    std::vector<PrunedInstance> pruned;  // empty unless the algorithm was told to
 };
 
 struct Report {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/random.h"
 #include "core/sample/loft.h"
 #include "core/sample/parts.h"
-#include "core/sample/random.h"
 #include "core/sample/scenes.h"
 #include "core/sample/texture.h"
 

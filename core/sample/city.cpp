@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/random.h"
 #include "core/sample/builder.h"
-#include "core/sample/random.h"
 #include "core/sample/scenes.h"
 #include "core/sample/texture.h"
 

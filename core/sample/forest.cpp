@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/random.h"
 #include "core/sample/loft.h"
-#include "core/sample/random.h"
 #include "core/sample/scenes.h"
 #include "core/sample/texture.h"
 

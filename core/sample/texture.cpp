@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "core/base/error.h"
-#include "core/sample/random.h"
+#include "core/base/random.h"
 
 namespace coppice {
 

@@ -51,6 +51,13 @@ struct SceneTarget {
     std::vector<Target> of_mesh;  // limits of each mesh: only the error is set
 };
 
+struct SimplifiedScene {
+    std::vector<Simplified> meshes;  // in the scene's order
+    // Per mesh: which of its instances are not to be drawn any more, ascending. Empty, or one list for each
+    // mesh.
+    std::vector<std::vector<uint32_t>> dropped_instances = {};
+};
+
 struct Algorithm {
     std::string_view id;
     std::string_view title;
@@ -67,12 +74,12 @@ struct Algorithm {
     Simplified (*simplify)(const Mesh& mesh, std::span<const Transform> instances, const Target& target,
                            const ParameterValues& parameters, const Watch& watch) = nullptr;
 
-    // In its place, where the meshes of a scene are weighed against each other: all at once, results in their
-    // order. A mesh without instances stays as it is.
-    std::vector<Simplified> (*simplify_scene)(std::span<const Mesh> meshes,
-                                              std::span<const std::vector<Transform>> instances,
-                                              const SceneTarget& target, const ParameterValues& parameters,
-                                              const Watch& watch) = nullptr;
+    // In its place, where the meshes of a scene are weighed against each other: all at once. A mesh without
+    // instances stays as it is.
+    SimplifiedScene (*simplify_scene)(std::span<const Mesh> meshes,
+                                      std::span<const std::vector<Transform>> instances,
+                                      const SceneTarget& target, const ParameterValues& parameters,
+                                      const Watch& watch) = nullptr;
 };
 
 }  // namespace coppice

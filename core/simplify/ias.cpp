@@ -1,10 +1,12 @@
 #include "core/simplify/ias.h"
 
+#include <array>
 #include <memory>
 #include <numeric>
 
 #include "core/simplify/cheapest_first.h"
 #include "core/simplify/edge_collapse.h"
+#include "core/simplify/instance_pruning.h"
 #include "core/simplify/instance_weights.h"
 #include "core/simplify/plane_error.h"
 #include "core/simplify/target.h"
@@ -41,6 +43,24 @@ class Member {
     CheapestFirst<EdgeCollapse> order_;
 };
 
+std::span<const Parameter> parameters() {
+    static const std::array<Parameter, 2> list = {{
+        {.id = "prune_instances",
+         .title =
+             "where collapses end short of ratio, drops instances of meshes that stand 1000 times or more "
+             "and enlarges the others",
+         .kind = Parameter::Kind::boolean,
+         .default_value = false},
+        {.id = "seed",
+         .title = "prune_instances=true: what chance starts with; the same drops the same",
+         .kind = Parameter::Kind::integer,
+         .default_value = 1.0,
+         .minimum = 0,
+         .maximum = 0x1p53},
+    }};
+    return list;
+}
+
 class SceneSimplification {
   public:
     SceneSimplification(std::span<const Mesh> meshes, std::span<const std::vector<Transform>> instances,
@@ -74,16 +94,16 @@ class SceneSimplification {
             EdgeCollapse& work = members_[m]->work();
             results.push_back(work.finish(done() ? StopReason::target : work.reason_for_refusals(), watch_));
         }
-        watch_.report(1.0);
         return results;
     }
+
+    bool done() const { return target_.triangles && load_ <= *target_.triangles; }
 
   private:
     // What a triangle of the mesh counts.
     uint64_t load_of(uint32_t mesh) const {
         return target_.rendered ? instances_[mesh].size() : uint64_t{!instances_[mesh].empty()};
     }
-    bool done() const { return target_.triangles && load_ <= *target_.triangles; }
 
     // Rounds, while they pay: see CheapestFirst::run.
     void collapse() {
@@ -140,12 +160,34 @@ class SceneSimplification {
     int rounds_ = 0;
 };
 
-std::vector<Simplified> simplify_scene(std::span<const Mesh> meshes,
-                                       std::span<const std::vector<Transform>> instances,
-                                       const SceneTarget& target, const ParameterValues& /*values*/,
-                                       const Watch& watch) {
+// What is left to do once nothing collapses any more. A target in stored triangles would not be met so.
+void prune(SimplifiedScene& scene, std::span<const std::vector<Transform>> instances, uint64_t triangles,
+           const ParameterValues& values, const Watch& watch) {
+    const PruneTarget target = {.rendered_triangles = triangles,
+                                .seed = static_cast<uint64_t>(*values.number("seed"))};
+    scene.dropped_instances = prune_instances(scene.meshes, instances, target, watch);
+    uint64_t drawn = 0;
+    for (size_t m = 0; m < scene.meshes.size(); ++m) {
+        const size_t left = instances[m].size() - scene.dropped_instances[m].size();
+        drawn += left * scene.meshes[m].mesh.triangle_count();
+    }
+    if (drawn > triangles) return;
+    for (Simplified& mesh : scene.meshes) {
+        if (mesh.stop_reason != StopReason::already_smaller) mesh.stop_reason = StopReason::target;
+    }
+}
+
+SimplifiedScene simplify_scene(std::span<const Mesh> meshes,
+                               std::span<const std::vector<Transform>> instances, const SceneTarget& target,
+                               const ParameterValues& values, const Watch& watch) {
     watch.check();
-    return SceneSimplification(meshes, instances, target, watch).run();
+    SceneSimplification work(meshes, instances, target, watch);
+    SimplifiedScene scene = {.meshes = work.run()};
+    const bool is_short = target.triangles && target.rendered && !work.done();
+    if (values.boolean("prune_instances") && is_short)
+        prune(scene, instances, *target.triangles, values, watch);
+    watch.report(1.0);
+    return scene;
 }
 
 }  // namespace
@@ -156,7 +198,7 @@ Algorithm ias() {
             .citation =
                 "T. Azim, E. Cheslack-Postava, P. Levis: Instance-aware simplification of 3D polygonal "
                 "meshes. IEEE ICME 2015",
-            .parameters = {},
+            .parameters = parameters(),
             .instance_aware = true,
             .simplify_scene = simplify_scene};
 }

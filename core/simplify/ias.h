@@ -3,7 +3,8 @@
 //
 // Idea: quadrics over all the instances of a mesh, but each mesh simplified once, and one queue over all
 // meshes of the scene: the next edge is the one that costs the scene least. A mesh that stands large or often
-// keeps more. The instances stay as they are, so the file only gets smaller.
+// keeps more. The instances stay as they are, so the file only gets smaller; unless prune_instances lets go
+// of some of what stands very often, where collapses end short of the target (instance_pruning.h).
 //
 // Guarantees: those of quadric (garland_heckbert.h). Complexity: O(F log F) for the F triangles of all unique
 // meshes together, whatever the number of instances (instance_weights.h).

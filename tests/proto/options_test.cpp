@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/base/error.h"
+#include "core/simplify/registry.h"
 
 namespace coppice {
 namespace {
@@ -50,6 +51,23 @@ TEST(Options, of_json_mean_the_same_as_those_of_a_query) {
                                      {"parameters.mode", "faithful"},
                                      {"triangles", "1000"},
                                      {"algorithm", "its"}})));
+}
+
+TEST(Options, carry_the_switches_and_whole_numbers_of_an_algorithm) {
+    const auto query = parse_options(
+        {{"algorithm", "ias"}, {"parameters.prune_instances", "true"}, {"parameters.seed", "7"}});
+    const auto json =
+        parse_options_json(R"({"algorithm":"ias","parameters":{"prune_instances":true,"seed":7}})");
+    for (const OptimizeOptions& options : {query, json}) {
+        const auto values = ParameterValues::parse(find_algorithm("ias").parameters, options.parameters);
+        EXPECT_TRUE(values.boolean("prune_instances"));
+        EXPECT_EQ(values.number("seed"), 7);
+    }
+    EXPECT_EQ(query_refusal({{"algorithm", "ias"}, {"parameters.seed", "7"}}).where(), "parameters.seed");
+    EXPECT_EQ(query_refusal(
+                  {{"algorithm", "ias"}, {"parameters.prune_instances", "true"}, {"parameters.seed", "0.5"}})
+                  .code(),
+              ErrorCode::option_invalid);
 }
 
 TEST(Options, of_an_inspection_are_the_one_that_chooses_the_asset) {

@@ -36,8 +36,11 @@ Report two_oaks() {
                       .error_diagonal_fraction = 0.125,
                       .stop_reason = StopReason::target}};
     report.savings = {.bytes_ratio = 0.5, .bytes_vs_expanded = 0.25, .bytes_saved_by_instancing = 900};
-    report.instancing = {
-        .given = 2, .discovered = 0, .unique = 1, .map = {{.node = 3, .mesh = 0, .instance = 1}}};
+    report.instancing = {.given = 2,
+                         .discovered = 0,
+                         .unique = 1,
+                         .map = {{.node = 3, .mesh = 0, .instance = 1}},
+                         .pruned = {{.node = 4, .instance = 0}}};
     report.warnings = {{.code = "mesh.degenerate", .message = "2 triangles have no area", .where = "oak"}};
     report.engine_version = "0.1.0";
     report.engine_build = "abc";
@@ -56,7 +59,8 @@ TEST(Report, has_the_names_of_the_contract) {
                               "stop_reason":"target"})"));
     EXPECT_EQ(report["savings"]["bytes_vs_expanded"], 0.25);
     EXPECT_EQ(report["instancing"], json::parse(R"({"given":2,"discovered":0,"unique":1,
-                                                    "map":[{"node":3,"mesh":0,"instance":1}]})"));
+                                                    "map":[{"node":3,"mesh":0,"instance":1}],
+                                                    "pruned":[{"node":4,"instance":0}]})"));
     EXPECT_EQ(report["warnings"][0]["where"], "oak");
     EXPECT_EQ(report["engine"]["version"], "0.1.0");
 }

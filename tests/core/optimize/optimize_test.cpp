@@ -9,6 +9,8 @@
 #include "core/base/error.h"
 #include "core/optimize/inspect.h"
 #include "core/sample/sample.h"
+#include "core/scene/instance.h"
+#include "tests/support/shapes.h"
 
 namespace coppice {
 namespace {
@@ -147,6 +149,106 @@ Input too_far_out() {
     }
     scene.nodes.push_back(above);
     return {write_asset(scene, {}, {}).bytes};
+}
+
+// Of 1600 tetrahedra every second one is a node, the others are a batch.
+Scene field() {
+    Scene scene;
+    scene.meshes.push_back(shapes::tetrahedron());
+    scene.materials.resize(1);
+    Node batch;
+    batch.mesh = 0;
+    for (uint32_t i = 0; i < 1600; ++i) {
+        const Transform place = from_trs({2.0 * i, 0, 0}, {0, 0, 0, 1}, {1, 1, 1});
+        if (i % 2 == 0) {
+            batch.batch.push_back(place);
+            continue;
+        }
+        scene.roots.push_back(static_cast<uint32_t>(scene.nodes.size()));
+        scene.nodes.push_back({.name = "single", .local = place, .mesh = 0});
+    }
+    scene.roots.push_back(static_cast<uint32_t>(scene.nodes.size()));
+    scene.nodes.push_back(batch);
+    return scene;
+}
+
+Input written(const Scene& scene, Format format = Format::glb) {
+    return {write_asset(scene, {.format = format}, {}).bytes};
+}
+
+OptimizeOptions pruning(double ratio) {
+    return {.algorithm = "ias", .ratio = ratio, .parameters = {{"prune_instances", true}}};
+}
+
+Scene read_again(const WrittenAsset& asset) {
+    return read_asset({.asset = {.path = "out", .bytes = asset.bytes}}, {}, {}).scene;
+}
+
+TEST(PruneInstances, takes_out_of_the_scene_what_the_report_says) {
+    const Optimized result = optimize(written(field()).upload(), pruning(0.25), {}, {});
+    const Report& report = result.report;
+    EXPECT_EQ(report.input.instances, 1600U);
+    EXPECT_EQ(report.output.instances, 400U);
+    EXPECT_EQ(report.output.rendered_triangles, 1600U);
+    EXPECT_EQ(report.meshes[0].instances, 400U);
+    EXPECT_EQ(report.instancing.given, 1600U);
+    EXPECT_EQ(report.instancing.pruned.size(), 1200U);
+    ASSERT_EQ(report.warnings.size(), 1U);
+    EXPECT_EQ(report.warnings[0].code, "instances.pruned");
+    EXPECT_EQ(report.warnings[0].count, 1200U);
+    EXPECT_EQ(instance_count(read_again(result.asset)), 400U);
+}
+
+// The others stay where they were, in their order.
+TEST(PruneInstances, maps_those_that_stay_to_where_they_stood) {
+    const Scene before = field();
+    const Optimized result = optimize(written(before).upload(), pruning(0.25), {}, {});
+    const std::vector<Instance> left = instances(read_again(result.asset));
+    const InstancingReport& told = result.report.instancing;
+    ASSERT_EQ(told.map.size(), left.size());
+    size_t mapped = 0, pruned = 0;
+    for (const Instance& instance : instances(before)) {
+        if (pruned < told.pruned.size() &&
+            told.pruned[pruned] == PrunedInstance{instance.node, instance.in_batch}) {
+            ++pruned;
+            continue;
+        }
+        ASSERT_LT(mapped, left.size());
+        EXPECT_EQ(told.map[mapped].node, instance.node);
+        EXPECT_EQ(told.map[mapped].instance, left[mapped].in_batch);
+        EXPECT_EQ(left[mapped].world, instance.world);
+        ++mapped;
+    }
+    EXPECT_EQ(mapped, 400U);
+    EXPECT_EQ(pruned, 1200U);
+}
+
+TEST(PruneInstances, writes_the_same_bytes_for_any_number_of_threads) {
+    const Input input = written(field());
+    OptimizeOptions options = pruning(0.3);
+    options.threads = 1;
+    const Bytes one = optimize(input.upload(), options, {}, {}).asset.bytes;
+    options.threads = 4;
+    EXPECT_EQ(optimize(input.upload(), options, {}, {}).asset.bytes, one);
+    options.parameters["seed"] = 2.0;
+    EXPECT_NE(optimize(input.upload(), options, {}, {}).asset.bytes, one);
+}
+
+TEST(PruneInstances, reaches_instanced_and_plain_obj_too) {
+    OptimizeOptions options = pruning(0.25);
+    for (const Format format : {Format::iobj, Format::obj}) {
+        options.format = format;
+        const Optimized result = optimize(written(field()).upload(), options, {}, {});
+        EXPECT_EQ(result.report.output.rendered_triangles, 1600U) << id(format);
+        EXPECT_EQ(result.report.instancing.map.size(), 400U) << id(format);
+    }
+}
+
+TEST(PruneInstances, leaves_everything_where_it_is_not_asked) {
+    const Report report =
+        optimize(written(field()).upload(), {.algorithm = "ias", .ratio = 0.25}, {}, {}).report;
+    EXPECT_EQ(report.output.instances, 1600U);
+    EXPECT_TRUE(report.instancing.pruned.empty());
 }
 
 TEST(Inspect, refuses_what_stands_nowhere_as_optimize_does) {

@@ -172,6 +172,17 @@ TEST(Validate, refuses_a_parameter_of_another_mode) {
               ErrorCode::option_conflict);
     EXPECT_NO_THROW(
         validate({.algorithm = "gaea", .parameters = {{"schema", xyz}, {"codebook_size", 94.0}}}));
+    EXPECT_EQ(refused({.algorithm = "ias", .parameters = {{"seed", 3.0}}}), ErrorCode::option_conflict);
+}
+
+TEST(Validate, lets_prune_instances_go_with_a_target_that_it_can_meet_alone) {
+    const std::map<std::string, ParameterValue> pruning = {{"prune_instances", true}, {"seed", 3.0}};
+    EXPECT_NO_THROW(validate({.algorithm = "ias", .parameters = pruning}));
+    EXPECT_NO_THROW(validate({.algorithm = "ias", .ratio = 0.2, .parameters = pruning}));
+    EXPECT_EQ(refused({.algorithm = "ias", .triangles = 100, .parameters = pruning}),
+              ErrorCode::option_conflict);
+    EXPECT_EQ(refused({.algorithm = "ias", .ratio = 0.2, .error = 0.1, .parameters = pruning}),
+              ErrorCode::option_conflict);
 }
 
 TEST(Validate, takes_what_is_right) {

@@ -100,7 +100,7 @@ Simplified simplify(const Variant& variant, const Mesh& mesh, const Target& targ
     if (a.simplify_scene == nullptr) return a.simplify(mesh, {}, target, values, watch);
     const std::vector<std::vector<Transform>> one_instance = {{Transform{}}};
     const SceneTarget scene = {.triangles = target.triangles, .of_mesh = {target}};
-    return a.simplify_scene(std::span(&mesh, 1), one_instance, scene, values, watch).front();
+    return a.simplify_scene(std::span(&mesh, 1), one_instance, scene, values, watch).meshes.front();
 }
 
 Target part_of(const Mesh& mesh, double ratio) {

@@ -16,7 +16,8 @@ std::vector<Simplified> simplify(const std::vector<Mesh>& meshes,
                                  bool rendered = true) {
     const SceneTarget target = {
         .triangles = triangles, .rendered = rendered, .of_mesh = std::vector<Target>(meshes.size())};
-    return ias().simplify_scene(meshes, instances, target, ParameterValues(), {});
+    const auto values = ParameterValues::parse(ias().parameters, {});
+    return ias().simplify_scene(meshes, instances, target, values, {}).meshes;
 }
 
 const Mesh& ball() {
