@@ -44,6 +44,20 @@ TEST(SamplesValidate, in_each_way_of_instancing) {
     EXPECT_TRUE(batch.has_no_errors());
 }
 
+// What is dropped leaves nodes that have to be sound without it.
+TEST(SamplesValidate, with_instances_dropped) {
+    const WrittenAsset source =
+        write_asset(make_sample("forest", {.copies = 6000, .triangles = 200}), {}, {});
+    const OptimizeOptions options = {
+        .algorithm = "ias", .ratio = 0.01, .parameters = {{"prune_instances", true}}};
+    const Optimized result =
+        optimize({.asset = {.path = "forest.glb", .bytes = source.bytes}}, options, {}, {});
+    EXPECT_FALSE(result.report.instancing.pruned.empty());
+    ValidatorBatch batch;
+    batch.add("forest", result.asset);
+    EXPECT_TRUE(batch.has_no_errors());
+}
+
 TEST(SamplesValidate, with_everything_joined_into_one_mesh) {
     ValidatorBatch batch;
     for (const SampleKind& kind : sample_kinds()) {
