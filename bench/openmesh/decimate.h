@@ -1,5 +1,5 @@
-// OpenMesh's quadric decimater, with one of its functions compiled from its source without assertions: what the
-// speed of others is measured by. Apart from the benchmarks, since it is compiled without their checks, and
+// OpenMesh's quadric decimater, with one of its functions written anew without assertions: what the speed of
+// others is measured by. Apart from the benchmarks, since it is compiled without their checks, and
 // without those of Debian's library of OpenMesh.
 #pragma once
 

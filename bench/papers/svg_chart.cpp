@@ -42,10 +42,12 @@ Axes axes_of(const Chart& chart) {
 // 1, 2, 5, 10, ...
 std::vector<double> ticks(const Axis& axis) {
     std::vector<double> result;
-    for (double decade = std::pow(10, std::floor(std::log10(axis.least))); decade < axis.most; decade *= 10) {
+    double decade = std::pow(10, std::floor(std::log10(axis.least)));
+    while (decade < axis.most) {
         for (const double step : {1, 2, 5}) {
             if (decade * step >= axis.least && decade * step <= axis.most) result.push_back(decade * step);
         }
+        decade *= 10;
     }
     return result;
 }
@@ -64,7 +66,8 @@ struct Box {
 // Beside the point where that is free, else ever farther from it.
 Box place_label(const Box& point, double width, const std::vector<Box>& taken, const Axes& axes) {
     const double x = point.x + point.width / 2, y = point.y + point.height / 2;
-    for (double away = 8; away < 200; away += 6) {
+    for (int tried = 0; tried < 32; ++tried) {
+        const double away = 8 + 6 * tried;
         for (const double turn :
              {0.0, 1.0, -0.25, 0.25, -0.75, 0.75, -0.5, 0.5}) {  // of half a circle, 0: right
             const double along = std::cos(turn * M_PI), up = std::sin(turn * M_PI);

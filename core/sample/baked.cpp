@@ -55,7 +55,8 @@ Scene make_baked(const SampleSize& size) {
         const double turn = random.uniform(0, 2 * std::numbers::pi);
         Mesh copy = prototypes[i % 2];
         copy.name += "-" + std::to_string(i + 1);
-        transform_mesh(translation({5.0 * (i % side), 5.0 * (i / side), 0}) * rotation(axis, turn) *
+        const uint32_t column = i % side, row = i / side;
+        transform_mesh(translation({5.0 * column, 5.0 * row, 0}) * rotation(axis, turn) *
                            scaling({grow * mirror, grow, grow}),
                        copy);
         const std::string name = copy.name;

@@ -88,7 +88,8 @@ Scene make_bunny(const SampleSize& size) {
     Random random(size.seed + 1);
     const auto side = static_cast<uint32_t>(std::ceil(std::sqrt(size.copies)));
     for (uint32_t i = 0; i < size.copies; ++i) {
-        const Vec3d place = {4.0 * (i % side), 4.0 * (i / side), 0};
+        const uint32_t column = i % side, row = i / side;
+        const Vec3d place = {4.0 * column, 4.0 * row, 0};
         const Vec3d tilt_axis = normalized({random.uniform(-1, 1), random.uniform(-1, 1), 0.2});
         const double spin = random.uniform(0, 2 * std::numbers::pi), tilt = random.uniform(-0.4, 0.4);
         const double grow = random.uniform(0.5, 1.5);

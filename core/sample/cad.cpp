@@ -60,8 +60,8 @@ Scene make_cad(const SampleSize& size) {
     const auto side = static_cast<uint32_t>(std::ceil(std::sqrt(assemblies)));
     for (uint32_t i = 0, placed = 0; i < assemblies; ++i) {
         const double height = random.uniform(0, 1), turn = std::numbers::pi / 2 * random.below(4);
-        const Transform place =
-            translation({5.0 * (i % side), 5.0 * (i / side), height}) * rotation({0, 0, 1}, turn);
+        const uint32_t column = i % side, row = i / side;
+        const Transform place = translation({5.0 * column, 5.0 * row, height}) * rotation({0, 0, 1}, turn);
         const std::string name = "assembly-" + std::to_string(i + 1);
         const uint32_t node = add_node(scene, name, place);
         for (const Part& part : parts) {

@@ -186,9 +186,10 @@ Scene make_city(const SampleSize& size) {
     add_node(scene, "street", {}, street, root);
     uint32_t block = root;
     for (uint32_t i = 0; i < size.copies; ++i) {
+        const uint32_t row = i / side;
         if (i % side == 0)
-            block = add_node(scene, "block-" + std::to_string(i / side + 1),
-                             translation({0, lot * (i / side - 0.5 * (side - 1)), 0}), {}, root);
+            block = add_node(scene, "block-" + std::to_string(row + 1),
+                             translation({0, lot * (row - 0.5 * (side - 1)), 0}), {}, root);
         const double setback = random.uniform(-1, 1), turn = std::numbers::pi / 2 * random.below(4);
         const double height = random.uniform(0.6, 1.6);
         const uint32_t kind = random.below(kinds_of_buildings);

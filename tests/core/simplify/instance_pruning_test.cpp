@@ -15,8 +15,9 @@ namespace {
 std::vector<Transform> field(size_t side) {
     std::vector<Transform> places;
     for (size_t i = 0; i < side * side; ++i) {
-        places.push_back(from_trs({static_cast<double>(i % side), 0, static_cast<double>(i / side)},
-                                  {0, 0, 0, 1}, {1, 1, 1}));
+        const auto column = i % side, row = i / side;
+        places.push_back(
+            from_trs({static_cast<double>(column), 0, static_cast<double>(row)}, {0, 0, 0, 1}, {1, 1, 1}));
     }
     return places;
 }
