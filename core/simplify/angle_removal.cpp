@@ -113,13 +113,17 @@ class AngleStage final : public ClusterStage {
     float flatness(uint32_t vertex) {
         if (options_.area_limit && !(areas_[vertex] < largest_area_)) return never;
         gather_fan(vertex);
-        if (options_.count) return cosine_of_last();
-        float least = flat;
-        for_each_pair(options_.all_pairs, [&](float cosine) { least = std::min(least, cosine); });
+        float least = options_.count ? cosine_of_last() : least_cosine();
         if (options_.stitch == Stitch::paper) return least;
-        if (least < crease_cosine) least = std::min(least, cosine_where_creases_meet());
+        if (!options_.count && least < crease_cosine) least = std::min(least, cosine_where_creases_meet());
         if (work_.kind(vertex) == VertexKind::manifold) return least;
         return std::min(least, static_cast<float>(work_.line_turn_cosine(vertex)));
+    }
+
+    float least_cosine() const {
+        float least = flat;
+        for_each_pair(options_.all_pairs, [&](float cosine) { least = std::min(least, cosine); });
+        return least;
     }
 
     float cosine_of_last() {

@@ -6,6 +6,12 @@
 
 namespace coppice {
 
+namespace {
+
+constexpr double most_cells = 64;  // along an axis, as n and xyz have at most
+
+}  // namespace
+
 CodebookFamily::CodebookFamily(const ParameterValues& values, const Bounds& box)
     : uniform_(values.choice("schema") == "uniform") {
     const std::string_view xyz = values.choice("xyz");
@@ -50,14 +56,15 @@ void CodebookFamily::fit(const Bounds& box) {
     if (longest > 0) proportions_ = {edges.x / longest, edges.y / longest, edges.z / longest};
 }
 
-// By bisection: code-vectors do not get fewer.
+// By bisection: code-vectors do not get fewer. Not the last number that rounds so, since who calculates with
+// it may come out beside it.
 double CodebookFamily::largest_with(double code_vectors) const {
-    double low = 1, high = code_vectors;
+    double low = 1, high = std::min(code_vectors, most_cells);
     for (int i = 0; i < 60; ++i) {
         const double middle = (low + high) / 2;
         (static_cast<double>(code_vector_count(sizes(middle))) <= code_vectors ? low : high) = middle;
     }
-    return low;
+    return low * (1 - 1e-9);
 }
 
 }  // namespace coppice

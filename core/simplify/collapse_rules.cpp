@@ -157,7 +157,6 @@ uint32_t CollapseRules::edge_uses(uint32_t vertex, uint32_t kept, bool ring_gath
     return uses;
 }
 
-// In either orientation. True, too, where all three have too many triangles to search.
 bool CollapseRules::has_triangle(std::array<uint32_t, 3> corners) {
     std::sort(corners.begin(), corners.end(),
               [this](uint32_t a, uint32_t b) { return mesh_.valence(a) < mesh_.valence(b); });

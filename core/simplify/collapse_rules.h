@@ -66,9 +66,11 @@ class CollapseRules {
     // The first part of check().
     bool keeps_topology(uint32_t removed, uint32_t kept);
 
+    // In either orientation. True, too, where all three have too many triangles to search.
+    bool has_triangle(std::array<uint32_t, 3> corners);
+
   private:
     bool duplicates(uint32_t removed, uint32_t kept);
-    bool has_triangle(std::array<uint32_t, 3> corners);
     bool keeps_orientation(uint32_t removed, uint32_t kept) const;
     uint32_t edge_uses(uint32_t vertex, uint32_t kept, bool ring_gathered);
 

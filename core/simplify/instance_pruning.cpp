@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/random.h"
 #include "core/base/watched_loop.h"
@@ -15,6 +16,14 @@ constexpr size_t fewest_of_all = 20;  // one in so many: 5 %
 
 bool deforms(const Mesh& mesh) {
     return !mesh.morph_targets.empty() || mesh.find_attribute("JOINTS_0") != nullptr;
+}
+
+// Whether all positions are numbers still once they are so many times as far from the origin.
+bool may_grow(const Mesh& mesh, double times) {
+    constexpr double most = std::numeric_limits<float>::max();
+    return std::all_of(mesh.positions.begin(), mesh.positions.end(), [&](const Vec3f& p) {
+        return times * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= most;
+    });
 }
 
 bool contains(const Bounds& outer, const Bounds& inner) {
@@ -53,7 +62,7 @@ class Pruning {
             const uint64_t load = count * meshes[m].mesh.triangle_count();
             drawn += load;
             if (load == 0 || count < fewest_instances || count * fewest_of_all < all) continue;
-            if (deforms(meshes[m].mesh)) continue;
+            if (deforms(meshes[m].mesh) || !may_grow(meshes[m].mesh, std::sqrt(count))) continue;
             frequent_.push_back(m);
             of_frequent += load;
         }

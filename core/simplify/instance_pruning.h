@@ -7,7 +7,8 @@
 // all did.
 //
 // Departures: the mesh is scaled, about its origin, in place of the transforms that show it, so that nodes
-// and their children stay as they are. Meshes with morph targets or joints keep all instances. Chance is
+// and their children stay as they are; nodes outside the default scene that show it grow with it. Meshes with
+// morph targets or joints, and those that would outgrow what numbers reach, keep all instances. Chance is
 // seeded.
 #pragma once
 

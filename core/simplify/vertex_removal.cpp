@@ -17,10 +17,10 @@ VertexRemoval::VertexRemoval(const Mesh& source, const Target& target, Stitch st
       mesh_(source, watch),
       features_(find_features(mesh_, watch)),
       rules_(mesh_, features_.kinds, watch),
-      bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal()),
-      lines_(mesh_, features_, line_tolerance_of_diagonal * mesh_.box().diagonal()),
+      bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
+      lines_(mesh_, features_, line_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
       uvs_(mesh_, source, watch),
-      deviation_(mesh_),
+      deviation_(mesh_, watch),
       count_(target, mesh_),
       normals_(rules_.first_normals()) {
     watch.check();
@@ -147,7 +147,7 @@ bool VertexRemoval::add(const Part& part, std::array<uint32_t, 3> places, uint32
         added.normal = to_float(normalized(cross(points_[places[1]] - a, points_[places[2]] - a)));
     } else {
         const auto normal = rules_.normal_of_filling(added.vertices, rules_.facing(vertex));
-        if (!normal || (part.ring_size() == 3 && is_triangle_beside(added.vertices))) return false;
+        if (!normal || (part.ring_size() == 3 && rules_.has_triangle(added.vertices))) return false;
         added.normal = *normal;
     }
     for (size_t k = 0; k < 3; ++k) added.wedges[k] = wedge_at(part, places[k], added.normal);
@@ -166,17 +166,6 @@ uint32_t VertexRemoval::wedge_at(const Part& part, uint32_t i, Vec3f normal) con
     if (ends_path) return ends;
     const auto facing = [&](uint32_t corner) { return cosine_between(normals_[corner / 3], normal); };
     return facing(after) >= facing(before) ? begins : ends;
-}
-
-// The removed vertex' own triangles have other corners.
-bool VertexRemoval::is_triangle_beside(const std::array<uint32_t, 3>& vertices) const {
-    const auto [v, a, b] = vertices;
-    for (uint32_t c = mesh_.first_corner(v); c != no_index; c = mesh_.corner_after(c)) {
-        const uint32_t next = mesh_.corner_vertex(CollapseMesh::next_corner(c));
-        const uint32_t previous = mesh_.corner_vertex(CollapseMesh::previous_corner(c));
-        if ((next == a && previous == b) || (next == b && previous == a)) return true;
-    }
-    return false;
 }
 
 // To the new triangle that it is above, or else, as Deviation::after, to the nearest.

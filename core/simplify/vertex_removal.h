@@ -99,7 +99,6 @@ class VertexRemoval {
         return place < ring_size_ ? place : place - ring_size_;
     }
     uint32_t wedge_at(const Part& part, uint32_t i, Vec3f normal) const;
-    bool is_triangle_beside(const std::array<uint32_t, 3>& vertices) const;
     double deviation(uint32_t vertex) const;
     void remove(uint32_t vertex);
     void replace_fan();

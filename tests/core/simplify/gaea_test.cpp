@@ -151,6 +151,21 @@ TEST(CodebookFamily, is_in_proportion_to_the_box) {
     EXPECT_EQ(again.sizes(again.start()), f.sizes(8)) << "what is reported gives the same codebook";
 }
 
+TEST(CodebookFamily, starts_where_calculating_with_the_start_gives_the_same) {
+    for (double n = 2; n <= 64; ++n) {
+        const CodebookFamily f =
+            family({{"schema", "xyz"}, {"codebook_size", 6 * n * n}}, {{0, 0, 0}, {1, 1, 1}});
+        EXPECT_EQ(f.sizes(1 / (1 / f.start())), f.sizes(f.start())) << n;
+        EXPECT_EQ(f.threshold(f.sizes(f.start())), 6 * n * n);
+    }
+}
+
+TEST(CodebookFamily, has_no_more_cells_along_an_axis_for_a_needle) {
+    const CodebookFamily f =
+        family({{"schema", "xyz"}, {"codebook_size", 24576.0}}, {{0, 0, 0}, {1000, 1, 1}});
+    EXPECT_EQ(f.sizes(f.start()), (CodebookSizes{64, 1, 1}));
+}
+
 TEST(CodebookFamily, takes_what_is_given) {
     const CodebookFamily xyz = family({{"schema", "xyz"}, {"xyz", "5-4-30"}});
     EXPECT_EQ(xyz.sizes(xyz.start()), (CodebookSizes{5, 4, 30}));

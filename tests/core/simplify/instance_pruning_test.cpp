@@ -106,6 +106,15 @@ TEST(InstancePruning, drops_first_what_would_leave_the_box_of_the_scene) {
     for (uint32_t i = 0; i < side; ++i) EXPECT_TRUE(gone.contains(i + side * (side - 1))) << i;
 }
 
+TEST(InstancePruning, spares_what_would_outgrow_numbers) {
+    Mesh mesh = shapes::tetrahedron();
+    for (Vec3f& p : mesh.positions) p = to_float(to_double(p) * 1e37);
+    std::vector<Simplified> results = {{.mesh = mesh}};
+    const std::vector<std::vector<Transform>> instances = {field(40)};
+    EXPECT_TRUE(prune_instances(results, instances, {.rendered_triangles = 400}, {})[0].empty());
+    EXPECT_EQ(results[0].mesh.positions, mesh.positions);
+}
+
 TEST(InstancePruning, spares_what_bends) {
     Mesh mesh = shapes::tetrahedron();
     mesh.attributes.push_back(

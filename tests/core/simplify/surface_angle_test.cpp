@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/mesh/adjacency.h"
+#include "core/simplify/collapse_rules.h"
 #include "tests/support/properties.h"
 #include "tests/support/shapes.h"
 
@@ -73,6 +75,57 @@ TEST(SurfaceAngle, leaves_borders_alone_unless_told_else) {
     EXPECT_EQ(removed.mesh.triangle_count(), 2U);
     EXPECT_EQ(removed.stop_reason, StopReason::target);
     EXPECT_TRUE(test::keeps_borders(sheet, removed.mesh, 1e-6));
+}
+
+TEST(SurfaceAngle, keeps_a_border_that_turns_however_many_angles_count) {
+    // A flat strip, whose borders go to and fro.
+    Mesh strip;
+    strip.slots.push_back({});
+    for (uint32_t i = 0; i < 100; ++i) {
+        const float side = i % 2 == 0 ? 0.1F : -0.1F;
+        for (const float z : {0.0F, 1.0F, 2.0F}) {
+            strip.wedge_vertex.push_back(static_cast<uint32_t>(strip.positions.size()));
+            strip.positions.push_back({static_cast<float>(i), z == 1 ? 0 : side, 0});
+            strip.positions.back().y += z;
+        }
+        for (const uint32_t low : {3 * i, 3 * i + 1}) {
+            if (i == 99) break;
+            strip.triangles.insert(strip.triangles.end(), {low, low + 3, low + 1, low + 1, low + 3, low + 4});
+            strip.triangle_slot.insert(strip.triangle_slot.end(), 2, 0);
+        }
+    }
+    const auto left = [&](const char* count) {
+        return simplify(strip, {}, {{"angle", 175.0}, {"borders", "remove"}, {"count", count}})
+            .mesh.triangles;
+    };
+    EXPECT_EQ(left("9999"), left("all"));
+}
+
+// Each of `slices` triangles around a hub is three, around a vertex whose ring begins with the hub.
+TEST(SurfaceAngle, searches_no_hub_for_a_triangle) {
+    constexpr uint32_t slices = 4096;
+    Mesh disc;
+    disc.slots.push_back({});
+    disc.positions.push_back({0, 0, 0});
+    for (const double radius : {1.0, 0.8}) {
+        for (uint32_t i = 0; i < slices; ++i) {
+            const double angle = 2 * 3.14159265358979 * (i + (radius < 1 ? 0.5 : 0)) / slices;
+            disc.positions.push_back(to_float({radius * std::cos(angle), radius * std::sin(angle), 0}));
+        }
+    }
+    for (uint32_t v = 0; v < disc.vertex_count(); ++v) disc.wedge_vertex.push_back(v);
+    for (uint32_t i = 0; i < slices; ++i) {
+        const uint32_t a = 1 + i, b = 1 + (i + 1) % slices, middle = 1 + slices + i;
+        disc.triangles.insert(disc.triangles.end(), {middle, a, b, middle, b, 0, middle, 0, a});
+        disc.triangle_slot.insert(disc.triangle_slot.end(), 3, 0);
+    }
+    const CollapseMesh collapsing(disc);
+    CollapseRules rules(collapsing, find_features(collapsing, {}).kinds);
+    for (uint32_t i = 0; i < slices; ++i)
+        EXPECT_FALSE(rules.has_triangle({0, 1 + i, 1 + (i + 1) % slices})) << i;
+    EXPECT_LT(rules.searched(), 20 * slices);
+    const Simplified left = simplify(disc, {.triangles = slices});
+    EXPECT_EQ(left.mesh.triangle_count(), slices);
 }
 
 TEST(SurfaceAngle, takes_vertices_of_a_seam_on_both_sides) {
