@@ -152,9 +152,9 @@ TEST(CodebookFamily, is_in_proportion_to_the_box) {
 }
 
 TEST(CodebookFamily, starts_where_calculating_with_the_start_gives_the_same) {
-    for (double n = 2; n <= 64; ++n) {
+    for (int n = 2; n <= 64; ++n) {
         const CodebookFamily f =
-            family({{"schema", "xyz"}, {"codebook_size", 6 * n * n}}, {{0, 0, 0}, {1, 1, 1}});
+            family({{"schema", "xyz"}, {"codebook_size", 6.0 * n * n}}, {{0, 0, 0}, {1, 1, 1}});
         EXPECT_EQ(f.sizes(1 / (1 / f.start())), f.sizes(f.start())) << n;
         EXPECT_EQ(f.threshold(f.sizes(f.start())), 6 * n * n);
     }
