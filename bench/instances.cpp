@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "bench/median.h"
 #include "core/optimize/optimize.h"
 #include "core/sample/sample.h"
 
@@ -27,12 +28,6 @@ struct Scenario {
         total.push_back(report.timing_ms.total);
     }
 };
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-}
 
 }  // namespace
 }  // namespace coppice

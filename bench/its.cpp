@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/median.h"
 #include "core/base/hash.h"
 #include "core/sample/sample.h"
 #include "core/simplify/registry.h"
@@ -39,12 +40,6 @@ struct Scenario {
         hash = hash_of_result.finish_hex().substr(0, 12);
     }
 };
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-}
 
 }  // namespace
 }  // namespace coppice

@@ -6,17 +6,12 @@
 #include <functional>
 #include <vector>
 
+#include "bench/median.h"
 #include "core/simplify/registry.h"
 
 namespace coppice::papers {
 
 constexpr int runs = 5;
-
-inline double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-}
 
 // Of this process, over all its threads: other programs on the machine count little.
 inline double cpu_now_ms() {

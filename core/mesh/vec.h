@@ -31,6 +31,10 @@ inline double dot(Vec3d a, Vec3d b) {
 inline Vec3d cross(Vec3d a, Vec3d b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+// Of the triangle (a, b, c), counter-clockwise. Its length is twice the area.
+inline Vec3d area_normal(Vec3d a, Vec3d b, Vec3d c) {
+    return cross(b - a, c - a);
+}
 inline double squared_length(Vec3d v) {
     return dot(v, v);
 }

@@ -134,7 +134,7 @@ std::vector<MeshReport> simplify(Scene& scene, const Placement& placement, const
 
 // With instances=expand every instance becomes a mesh of its own before it is simplified.
 bool wants_copies(const Report& report) {
-    return report.parameters.choice("instances") == "expand";
+    return report.parameters.text("instances") == "expand";
 }
 
 // Plain OBJ stores a copy per instance whatever is asked; the writer makes them.

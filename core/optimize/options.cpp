@@ -23,7 +23,7 @@ constexpr std::array of_modes = {
 
 std::string_view chosen(const ParameterValues& values, std::string_view id) {
     const auto found = values.all().find(id);
-    if (found == values.all().end() || !std::holds_alternative<bool>(found->second)) return values.choice(id);
+    if (found == values.all().end() || !std::holds_alternative<bool>(found->second)) return values.text(id);
     return values.boolean(id) ? "true" : "false";
 }
 
@@ -82,7 +82,7 @@ void validate(const OptimizeOptions& options) {
             "error is {}; it takes a number over 0, as a fraction of the scene's diagonal", error);
     require(!options.ratio || !options.triangles, ErrorCode::option_conflict, "triangles",
             "ratio and triangles exclude each other: give the one that is the target");
-    require(!options.triangles || parameters.choice("stop") != "vertices", ErrorCode::option_conflict,
+    require(!options.triangles || parameters.text("stop") != "vertices", ErrorCode::option_conflict,
             "triangles",
             "with parameters.stop=vertices the target is ratio, which then counts vertices, not triangles");
     if (options.format) check_output(*options.format, options.instancing);

@@ -107,7 +107,7 @@ SceneTarget plan_scene_target(const Scene& scene, const Placement& placement, co
 
 std::vector<Target> plan_targets(const Scene& scene, const Placement& placement, const Algorithm& algorithm,
                                  const ParameterValues& parameters, const OptimizeOptions& options) {
-    const bool counts_vertices = parameters.choice("stop") == "vertices";
+    const bool counts_vertices = parameters.text("stop") == "vertices";
     const std::optional<double> ratio = gives_target(algorithm, options) ? options.ratio : 0.5;
     std::vector<uint64_t> triangles;
     if (options.triangles) {

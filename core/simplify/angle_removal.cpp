@@ -94,13 +94,9 @@ class AngleStage final : public ClusterStage {
         const CollapseMesh& mesh = work_.mesh();
         areas_.assign(mesh.vertex_count(), 0);
         double sum = 0;
-        watched_loop(mesh.triangle_count(), watch, [&](size_t i) {
-            const auto t = static_cast<uint32_t>(i);
-            if (!mesh.is_live_triangle(t)) return;
-            const uint32_t v[] = {mesh.corner_vertex(3 * t), mesh.corner_vertex(3 * t + 1),
-                                  mesh.corner_vertex(3 * t + 2)};
-            const Vec3d a = mesh.position(v[0]);
-            const double area = length(cross(mesh.position(v[1]) - a, mesh.position(v[2]) - a)) / 2;
+        for_each_triangle(mesh, watch, [&](uint32_t, const std::array<uint32_t, 3>& v) {
+            const double area =
+                length(area_normal(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]))) / 2;
             for (const uint32_t vertex : v) areas_[vertex] += area;
             sum += 3 * area;
         });

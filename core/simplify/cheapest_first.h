@@ -33,10 +33,8 @@ struct Collapsed {
 //
 // Work is what collapses (EdgeCollapse) and has
 //   - mesh(), done(), fraction(), forget_refusals();
-//   - Candidate next_candidate(owner, after): its cheapest edge that comes after the given candidate, if one
-//   is given;
-//   - optional<double> cost(owner, other): of one edge; none where that is not allowed, or owned by the
-//   other;
+//   - Candidate next_candidate(owner, after): its cheapest edge; with a candidate given, that comes after it;
+//   - optional<double> cost(owner, other): of one edge; none where it is not allowed, or the other's;
 //   - optional<Collapsed> try_collapse(owner, other);
 //   - void ring(vertex, vector& out): its neighbours, each once.
 template <typename Work>

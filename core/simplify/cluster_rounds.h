@@ -7,8 +7,9 @@
 
 namespace coppice {
 
-// One simplification by rounds of merges, each of sets of vertices that a threshold (a length, in mesh units)
-// lets through.
+// One simplification by rounds, each of steps that a threshold lets through: merges of vertices within a
+// length, in mesh units, or removals where the surface bends by at most an angle, in degrees. Larger
+// thresholds let more through.
 class ClusterStage {
   public:
     ClusterStage() = default;
@@ -31,7 +32,7 @@ class ClusterStage {
 };
 
 struct RoundOptions {
-    std::optional<double> threshold = {};  // the algorithm's own, mesh units
+    std::optional<double> threshold = {};  // the algorithm's own, in the stage's unit
     std::optional<uint32_t> rounds = {};
     // Goes beyond the usual threshold only where further rounds at it no longer help: for merges that leave
     // as much to do at the same threshold.

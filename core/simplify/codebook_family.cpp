@@ -13,8 +13,8 @@ constexpr double most_cells = 64;  // along an axis, as n and xyz have at most
 }  // namespace
 
 CodebookFamily::CodebookFamily(const ParameterValues& values, const Bounds& box)
-    : uniform_(values.choice("schema") == "uniform") {
-    const std::string_view xyz = values.choice("xyz");
+    : uniform_(values.text("schema") == "uniform") {
+    const std::string_view xyz = values.text("xyz");
     if (uniform_) {
         given_ = values.number("n").has_value();
         start_ = values.number("n").value_or(5);

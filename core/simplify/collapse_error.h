@@ -51,4 +51,18 @@ class CollapseError {
     virtual void merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) = 0;
 };
 
+// For who ranks edges otherwise: the rules alone say which collapses there are.
+class NoError final : public CollapseError {
+  public:
+    explicit NoError(const CollapseMesh& mesh) : mesh_(mesh) {}
+    std::optional<Placed> place(uint32_t, uint32_t kept, Freedom,
+                                const std::vector<uint32_t>&) const override {
+        return Placed{mesh_.position(kept), 0};
+    }
+    void merge(uint32_t, uint32_t, const std::vector<uint32_t>&) override {}
+
+  private:
+    const CollapseMesh& mesh_;
+};
+
 }  // namespace coppice

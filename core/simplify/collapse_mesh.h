@@ -7,11 +7,12 @@
 // (a chart, see wedge_chart).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/base/watch.h"
+#include "core/base/watched_loop.h"
 #include "core/mesh/bounds.h"
 #include "core/mesh/mesh.h"
 #include "core/simplify/wedge_values.h"
@@ -42,6 +43,10 @@ class CollapseMesh {
     static uint32_t next_corner(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
     static uint32_t previous_corner(uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
     uint32_t corner_vertex(uint32_t corner) const { return corner_vertex_[corner]; }
+    std::array<uint32_t, 3> vertices(uint32_t triangle) const {
+        return {corner_vertex_[3 * triangle], corner_vertex_[3 * triangle + 1],
+                corner_vertex_[3 * triangle + 2]};
+    }
     uint32_t corner_wedge(uint32_t corner) const { return corner_wedge_[corner]; }
 
     // for (auto c = first_corner(v); c != no_index; c = corner_after(c)): the live corners of a vertex.
@@ -90,5 +95,14 @@ class CollapseMesh {
     std::vector<uint32_t> wedge_slot_, wedge_source_, wedge_chart_;
     uint32_t live_triangles_ = 0, live_vertices_ = 0;
 };
+
+// Calls use(triangle, its vertices) for the live ones, in order; looks at the watch.
+template <typename Use>
+void for_each_triangle(const CollapseMesh& mesh, const Watch& watch, Use&& use) {
+    watched_loop(mesh.triangle_count(), watch, [&](size_t i) {
+        const auto triangle = static_cast<uint32_t>(i);
+        if (mesh.is_live_triangle(triangle)) use(triangle, mesh.vertices(triangle));
+    });
+}
 
 }  // namespace coppice

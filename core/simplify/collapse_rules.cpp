@@ -27,10 +27,6 @@ bool is_degenerate(Vec3d a, Vec3d b, Vec3d c, Vec3d normal) {
     return squared_length(normal) <= degenerate_aspect * degenerate_aspect * longest * longest;
 }
 
-Vec3d area_normal(Vec3d a, Vec3d b, Vec3d c) {
-    return cross(b - a, c - a);
-}
-
 // Mean cosine between a normal, of any length but none, and where the surface faced at the corners, as far as
 // that is known.
 double agreement_with_corners(Vec3d normal, const std::array<Vec3f, 3>& facings) {
@@ -51,11 +47,8 @@ std::vector<Vec3f> facings(const CollapseMesh& mesh, std::span<const Vec3f> norm
         double angles = 0;
     };
     std::vector<Sum> sums(mesh.vertex_count());
-    watched_loop(mesh.triangle_count(), watch, [&](size_t t) {
-        if (!mesh.is_live_triangle(static_cast<uint32_t>(t))) return;
-        std::array<uint32_t, 3> v{};
+    for_each_triangle(mesh, watch, [&](uint32_t t, const std::array<uint32_t, 3>& v) {
         std::array<Vec3d, 3> along;  // unit, from each corner to the next
-        for (uint32_t k = 0; k < 3; ++k) v[k] = mesh.corner_vertex(static_cast<uint32_t>(3 * t) + k);
         for (size_t k = 0; k < 3; ++k)
             along[k] = normalized(mesh.position(v[(k + 1) % 3]) - mesh.position(v[k]));
         for (size_t k = 0; k < 3; ++k) {
@@ -80,12 +73,8 @@ CollapseRules::CollapseRules(const CollapseMesh& mesh, std::vector<VertexKind> k
       first_normals_(watched_vector<Vec3f>(mesh.triangle_count(), watch)),
       around_removed_(mesh.vertex_count()),
       around_kept_(mesh.vertex_count()) {
-    watched_loop(mesh.triangle_count(), watch, [&](size_t i) {
-        const auto t = static_cast<uint32_t>(i);
-        if (!mesh.is_live_triangle(t)) return;
-        const Vec3d a = mesh.position(mesh.corner_vertex(3 * t)),
-                    b = mesh.position(mesh.corner_vertex(3 * t + 1)),
-                    c = mesh.position(mesh.corner_vertex(3 * t + 2));
+    for_each_triangle(mesh, watch, [&](uint32_t t, const std::array<uint32_t, 3>& v) {
+        const Vec3d a = mesh.position(v[0]), b = mesh.position(v[1]), c = mesh.position(v[2]);
         const Vec3d normal = area_normal(a, b, c);
         if (!is_degenerate(a, b, c, normal)) first_normals_[t] = to_float(normalized(normal));
     });

@@ -5,19 +5,15 @@
 
 #include "core/base/watched_loop.h"
 #include "core/simplify/neighbours.h"
+#include "core/simplify/vertex_kind.h"
 
 namespace coppice {
 
 namespace {
 
-constexpr double least_sine = 1.7e-8;         // of what the angles exceed 180 degrees by: 1e-6 degrees
-constexpr double least_cosine = 0.866025404;  // of the dihedral: 30 degrees
-constexpr double least_aspect = 1e-4;         // of a new triangle: twice its area to its longest edge squared
+constexpr double least_sine = 1.7e-8;  // of what the angles exceed 180 degrees by: 1e-6 degrees
+constexpr double least_aspect = 1e-4;  // of a new triangle: twice its area to its longest edge squared
 constexpr uint32_t longest_ring = 64;
-
-Vec3d area_normal(Vec3d a, Vec3d b, Vec3d c) {
-    return cross(b - a, c - a);
-}
 
 class Flips {
   public:
@@ -60,7 +56,7 @@ class Flips {
         const double edges = std::sqrt(squared_length(pa - pc) * squared_length(pb - pc)) *
                              std::sqrt(squared_length(pa - pd) * squared_length(pb - pd));
         if (!(size_c * dot_d + size_d * dot_c < -least_sine * edges)) return false;
-        if (dot(n_c, n_d) < least_cosine * size_c * size_d) return false;
+        if (dot(n_c, n_d) < crease_cosine * size_c * size_d) return false;
         const Vec3d sum = n_c + n_d;
         if (!is_sound(pa, pd, pc, sum) || !is_sound(pb, pc, pd, sum)) return false;
         // The edge's triangles in the other's order: (c, a, b) and (d, b', a').
@@ -102,7 +98,7 @@ class Flips {
         const double longest =
             std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
         return length(normal) > least_aspect * longest &&
-               dot(normal, facing) > least_cosine * length(normal) * length(facing);
+               dot(normal, facing) > crease_cosine * length(normal) * length(facing);
     }
 
     CollapseMesh& mesh_;

@@ -4,38 +4,19 @@
 
 namespace coppice {
 
-namespace {
-
-Features features_for(const CollapseMesh& mesh, const CollapseOptions& options, const Watch& watch) {
-    Features features = find_features(mesh, watch);
-    if (options.lock_sharp_borders) lock_sharp_borders(mesh, features);
-    return features;
-}
-
-}  // namespace
-
 EdgeCollapse::EdgeCollapse(const Mesh& source, const Target& target, const CollapseOptions& options,
                            const MakeError& make_error, const Watch& watch)
-    : steps_(watch),
-      source_(source),
-      target_(target),
+    : GuardedMesh(source, target, options.lock_sharp_borders, watch),
+      steps_(watch),
       has_values_(!source.attributes.empty() || !source.morph_targets.empty()),
       options_(options),
-      mesh_(source, watch),
-      features_(features_for(mesh_, options, watch)),
       clouds_(mesh_, source, options.scales, watch),
       projection_(mesh_),
       error_(make_error({mesh_, features_.edges, clouds_, projection_})),
-      rules_(mesh_, features_.kinds, watch),
-      bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
-      lines_(mesh_, features_, line_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
-      uvs_(mesh_, source, watch),
-      deviation_(mesh_, watch),
       wedge_map_(mesh_, clouds_),
       values_(source, mesh_.wedge_sources()),
       around_(mesh_.vertex_count(), watch),
-      around_other_(mesh_.vertex_count(), watch),
-      count_(target, mesh_) {
+      around_other_(mesh_.vertex_count(), watch) {
     watch.check();
 }
 
@@ -142,8 +123,7 @@ Refusal EdgeCollapse::check(const Merge& m) {
     const Refusal refusal = m.moves ? check_move(m) : check_end_point(m.removed, m.kept);
     if (refusal != Refusal::none) return refusal;
     next_deviation_ = m.moves ? deviation(m) : deviation_.after(m.removed, m.kept);
-    const bool too_far = target_.error_model_units && next_deviation_ > *target_.error_model_units;
-    return too_far ? Refusal::error : Refusal::none;
+    return check_deviation(next_deviation_);
 }
 
 Refusal EdgeCollapse::check_end_point(uint32_t removed, uint32_t kept) {
@@ -265,10 +245,7 @@ void EdgeCollapse::flip_edges(const MayFlip& may_flip, const Watch& watch) {
 }
 
 Simplified EdgeCollapse::finish(StopReason reason, const Watch& watch) const {
-    return {.mesh = mesh_.extract(source_, values_, watch),
-            .error_model_units = deviation_.largest(),
-            .certified = false,
-            .stop_reason = reason};
+    return simplified(mesh_.extract(source_, values_, watch), reason);
 }
 
 }  // namespace coppice

@@ -12,21 +12,13 @@
 #include <vector>
 
 #include "core/base/watched_loop.h"
-#include "core/simplify/algorithm.h"
 #include "core/simplify/attribute_cloud.h"
-#include "core/simplify/bounds_guard.h"
 #include "core/simplify/cheapest_first.h"
 #include "core/simplify/collapse_error.h"
-#include "core/simplify/collapse_mesh.h"
-#include "core/simplify/collapse_rules.h"
 #include "core/simplify/delaunay_flips.h"
-#include "core/simplify/deviation.h"
-#include "core/simplify/line_guard.h"
+#include "core/simplify/guarded_mesh.h"
 #include "core/simplify/neighbours.h"
 #include "core/simplify/projection.h"
-#include "core/simplify/refusal_counts.h"
-#include "core/simplify/target.h"
-#include "core/simplify/uv_guard.h"
 #include "core/simplify/wedge_map.h"
 #include "core/simplify/wedge_values.h"
 
@@ -38,7 +30,7 @@ struct CollapseOptions {
     bool lock_sharp_borders = false;  // for errors that do not see borders; see vertex_kind.h
 };
 
-class EdgeCollapse {
+class EdgeCollapse : public GuardedMesh {
   public:
     using MakeError = std::function<std::unique_ptr<CollapseError>(const CollapseParts&)>;
 
@@ -46,13 +38,6 @@ class EdgeCollapse {
     // that candidates and collapses cost.
     EdgeCollapse(const Mesh& source, const Target& target, const CollapseOptions& options,
                  const MakeError& make_error, const Watch& watch);
-    EdgeCollapse(const EdgeCollapse&) = delete;
-    EdgeCollapse& operator=(const EdgeCollapse&) = delete;
-
-    const CollapseMesh& mesh() const { return mesh_; }
-    VertexKind kind(uint32_t vertex) const { return features_.kinds[vertex]; }  // at the start
-    bool done() const { return count_.is_met(mesh_); }
-    double fraction() const { return count_.fraction(mesh_); }  // of the way there, 0..1
 
     // As CheapestFirst asks. With end points only, the owner of an edge is the end that goes; else the end
     // with the lower index.
@@ -67,10 +52,7 @@ class EdgeCollapse {
     // Delaunay flips (delaunay_flips.h) between collapses.
     void flip_edges(const MayFlip& may_flip, const Watch& watch);
 
-    // Refusals are counted; they explain why nothing is left to collapse.
-    void forget_refusals() { refusals_ = {}; }
     void refuse_beyond_threshold() { refusals_.add_beyond_threshold(); }  // what is not even tried
-    StopReason reason_for_refusals() const { return refusals_.reason(); }
 
     Simplified finish(StopReason reason, const Watch& watch) const;
 
@@ -100,27 +82,16 @@ class EdgeCollapse {
     void blend_wedges(uint32_t kept);
 
     WatchedSteps steps_;
-    const Mesh& source_;
-    const Target& target_;
     bool has_values_;  // that wedges get where they move
     CollapseOptions options_;
-    CollapseMesh mesh_;
-    Features features_;
     AttributeClouds clouds_;
     Projection projection_;
     std::unique_ptr<CollapseError> error_;
-    CollapseRules rules_;
-    BoundsGuard bounds_;
-    LineGuard lines_;
-    UvGuard uvs_;
-    Deviation deviation_;
     WedgeMap wedge_map_;
     WedgeValues values_;
     Neighbours around_, around_other_;
     std::vector<uint32_t> ring_;
-    TargetCount count_;
     double next_deviation_ = 0;  // of the collapse that check() has just let through
-    RefusalCounts refusals_;
 };
 
 }  // namespace coppice

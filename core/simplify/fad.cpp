@@ -38,7 +38,7 @@ Parameter area_limit_parameter() {
 
 AngleOptions angle_options_in(const ParameterValues& values) {
     return {.angle = values.number("angle"),
-            .all_pairs = values.choice("pairs") == "all",
+            .all_pairs = values.text("pairs") == "all",
             .area_limit = values.number("area_limit"),
             .lines = true};
 }

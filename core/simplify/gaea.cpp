@@ -18,21 +18,6 @@ namespace {
 constexpr double finest_searched = 32;
 constexpr double least_progress = 0.002;  // of the triangles, for a pass to be worth another one
 
-// Any edge costs its length; which may go is said elsewhere.
-class EdgeLength final : public CollapseError {
-  public:
-    explicit EdgeLength(const CollapseMesh& mesh) : mesh_(mesh) {}
-
-    std::optional<Placed> place(uint32_t removed, uint32_t kept, Freedom /*freedom*/,
-                                const std::vector<uint32_t>& /*wedge_map*/) const override {
-        return Placed{mesh_.position(kept), length(mesh_.position(removed) - mesh_.position(kept))};
-    }
-    void merge(uint32_t, uint32_t, const std::vector<uint32_t>&) override {}
-
-  private:
-    const CollapseMesh& mesh_;
-};
-
 // By the target that keeps more.
 double vertices_to_go(const Target& target, const CollapseMesh& mesh) {
     double least = std::numeric_limits<double>::infinity();
@@ -180,11 +165,11 @@ Simplified simplify(const Mesh& source, std::span<const Transform> /*instances*/
     if (is_small_enough(source, target)) return already_smaller(source, watch);
     EdgeCollapse work(
         source, target, {.freedom = Freedom::end_point},
-        [](const CollapseParts& parts) { return std::make_unique<EdgeLength>(parts.mesh); }, watch);
+        [](const CollapseParts& parts) { return std::make_unique<NoError>(parts.mesh); }, watch);
     const CodebookFamily family(values, work.mesh().box());
-    const PatchOptions options = {.warp = values.choice("warp") == "tan" ? Warp::tan : Warp::flat,
+    const PatchOptions options = {.warp = values.text("warp") == "tan" ? Warp::tan : Warp::flat,
                                   .refinements = static_cast<uint32_t>(*values.number("refine")),
-                                  .triangulate = values.choice("remesh") == "triangulate"};
+                                  .triangulate = values.text("remesh") == "triangulate"};
     Run run(work, target, family, options, watch);
     const bool counts = target.triangles || target.vertices;
     const bool seeks = (counts || target.error_model_units) && !family.is_given();

@@ -7,8 +7,9 @@
 //
 // A threshold alone (n, xyz, codebook_size): one pass with that codebook, or with iterate=true the paper's
 // iterations from there. With a target, each pass has the finest codebook whose patches hold as many vertices
-// as are to go (threshold_search.h); while there is none, 5-5-5 takes what it can, as in the paper's
-// iterations. threshold_used is the smallest n, or the fewest code-vectors.
+// as are to go (threshold_search.h), unless iterate=true asks for the paper's; while there is none, 5-5-5
+// takes what it can, as in the paper's iterations. threshold_used is the smallest n, or the fewest
+// code-vectors.
 //
 // Guarantees: those of quadric.h with placement=endpoint: no new non-manifold edge, no flipped, degenerate or
 // duplicate triangle, borders, seams and the box stay. Positions and attributes are some of the mesh's,
@@ -21,14 +22,11 @@
 //   - It refines the codebook once, with the mean normals of patches; refine=2, the default, fits its counts
 //     better (docs/results.md).
 //   - Its "pre-determined filter" from the bounding box to x, y and z is not told; here they are in
-//   proportion
-//     to the box's edges.
-//   - Iterations go to a smaller codebook where a pass takes less than 0.2 % of the triangles; the paper's go
-//   on
-//     until it takes none.
+//     proportion to the box's edges.
+//   - Iterations go to a smaller codebook where a pass takes less than 0.2 % of the triangles; the paper's
+//     go on until it takes none.
 //   - remesh=triangulate is one of the "other polygon triangulation algorithms" that it allows: Delaunay
-//   flips
-//     inside patches between collapses.
+//     flips inside patches between collapses.
 //
 // Complexity: O(F log F) time for F triangles, about 230 bytes per triangle.
 #pragma once

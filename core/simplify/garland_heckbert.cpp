@@ -40,10 +40,10 @@ Simplified simplify(const Mesh& source, std::span<const Transform> /*instances*/
                     const ParameterValues& values, const Watch& watch) {
     watch.check();
     if (is_small_enough(source, target)) return already_smaller(source, watch);
-    const PlaneOptions planes = {.by_area = values.choice("weighting") == "area",
+    const PlaneOptions planes = {.by_area = values.text("weighting") == "area",
                                  .boundary_weight = *values.number("boundary_weight")};
-    const CollapseOptions options = {.freedom = values.choice("placement") == "optimal" ? Freedom::anywhere
-                                                                                        : Freedom::end_point};
+    const CollapseOptions options = {.freedom = values.text("placement") == "optimal" ? Freedom::anywhere
+                                                                                      : Freedom::end_point};
     EdgeCollapse work(
         source, target, options,
         [&](const CollapseParts& parts) { return std::make_unique<PlaneError>(parts, planes, watch); },

@@ -53,7 +53,7 @@ Simplified simplify(const Mesh& source, std::span<const Transform> instances, co
                     const ParameterValues& values, const Watch& watch) {
     watch.check();
     if (is_small_enough(source, target)) return already_smaller(source, watch);
-    const bool faithful = values.choice("mode") == "faithful";
+    const bool faithful = values.text("mode") == "faithful";
     const CollapseOptions options = {.freedom = Freedom::end_point,
                                      .scales = attribute_scales(values),
                                      .lock_sharp_borders = faithful};  // full has planes that hold them

@@ -34,8 +34,8 @@ std::span<const Parameter> parameters() {
 
 Simplified simplify(const Mesh& source, std::span<const Transform>, const Target& target,
                     const ParameterValues& values, const Watch& watch) {
-    const bool paper = values.choice("circumcenter") == "paper";
-    const bool sequential = values.choice("mode") == "sequential";
+    const bool paper = values.text("circumcenter") == "paper";
+    const bool sequential = values.text("mode") == "sequential";
     return simplify_by_triangles(source, target,
                                  {.decide = decide,
                                   .circumcentre = paper ? Circumcentre::paper : Circumcentre::clamp,

@@ -31,27 +31,20 @@ NormalPatches::NormalPatches(const CollapseMesh& mesh, const Watch& watch)
       neighbours_(watched_vector(3 * size_t{mesh.triangle_count()}, watch, no_index)),
       patches_(watched_vector(mesh.triangle_count(), watch, no_index)),
       parents_(watched_vector<uint32_t>(mesh.triangle_count(), watch)) {
-    watched_loop(mesh.triangle_count(), watch, [&](size_t t) {
-        if (!mesh.is_live_triangle(static_cast<uint32_t>(t))) return;
-        const auto at = [&](size_t k) {
-            return mesh.position(mesh.corner_vertex(static_cast<uint32_t>(3 * t + k)));
-        };
-        const Vec3d a = at(0);
-        normals_[t] = to_float(normalized(cross(at(1) - a, at(2) - a)));
+    for_each_triangle(mesh, watch, [&](uint32_t t, const std::array<uint32_t, 3>& v) {
+        normals_[t] =
+            to_float(normalized(area_normal(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]))));
     });
     connect(watch);
 }
 
 void NormalPatches::connect(const Watch& watch) {
     const auto for_each_edge = [&](auto&& use) {
-        watched_loop(mesh_.triangle_count(), watch, [&](size_t t) {
-            const auto c = static_cast<uint32_t>(3 * t);
-            if (!mesh_.is_live_triangle(c / 3)) return;
-            const uint32_t v0 = mesh_.corner_vertex(c), v1 = mesh_.corner_vertex(c + 1),
-                           v2 = mesh_.corner_vertex(c + 2);
-            use(std::min(v0, v1), std::max(v0, v1), c);
-            use(std::min(v1, v2), std::max(v1, v2), c + 1);
-            use(std::min(v2, v0), std::max(v2, v0), c + 2);
+        for_each_triangle(mesh_, watch, [&](uint32_t t, const std::array<uint32_t, 3>& v) {
+            for (uint32_t k = 0; k < 3; ++k) {
+                const auto [low, high] = std::minmax(v[k], v[(k + 1) % 3]);
+                use(low, high, 3 * t + k);
+            }
         });
     };
     std::vector<uint32_t> ends(size_t{mesh_.vertex_count()} + 1);  // of each lower end's edges

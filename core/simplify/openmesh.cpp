@@ -29,20 +29,6 @@ using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 using Decimater = OpenMesh::Decimater::DecimaterT<HalfEdgeMesh>;
 using CollapseInfo = OpenMesh::Decimater::CollapseInfoT<HalfEdgeMesh>;
 
-// OpenMesh ranks; the rules only say which collapses there are.
-class NoError final : public CollapseError {
-  public:
-    explicit NoError(const CollapseMesh& mesh) : mesh_(mesh) {}
-    std::optional<Placed> place(uint32_t, uint32_t kept, Freedom,
-                                const std::vector<uint32_t>&) const override {
-        return Placed{mesh_.position(kept), 0};
-    }
-    void merge(uint32_t, uint32_t, const std::vector<uint32_t>&) override {}
-
-  private:
-    const CollapseMesh& mesh_;
-};
-
 // A collapse that was ranked is not allowed any more, since something changed beyond OpenMesh's sight.
 struct OutOfDate {};
 

@@ -156,7 +156,7 @@ bool ParameterValues::boolean(std::string_view id) const {
     return value && *value;
 }
 
-std::string_view ParameterValues::choice(std::string_view id) const {
+std::string_view ParameterValues::text(std::string_view id) const {
     const std::string* value = get<std::string>(values_, id);
     return value ? std::string_view(*value) : std::string_view();
 }

@@ -59,8 +59,8 @@ class ParameterValues {
                                  const std::map<std::string, ParameterValue>& given);
 
     std::optional<double> number(std::string_view id) const;
-    bool boolean(std::string_view id) const;             // false when unset
-    std::string_view choice(std::string_view id) const;  // or text; empty when unset
+    bool boolean(std::string_view id) const;           // false when unset
+    std::string_view text(std::string_view id) const;  // or the choice; empty when unset
     std::optional<Length> length(std::string_view id) const;
     const std::map<std::string, ParameterValue, std::less<>>& all() const { return values_; }
 

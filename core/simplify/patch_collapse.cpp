@@ -28,11 +28,14 @@ uint32_t PatchCollapse::count_inside(const CodebookSizes& sizes) {
 
 double PatchCollapse::estimate_inside(const CodebookSizes& sizes) const {
     const Codebook codebook(sizes, options_.warp, 6 * std::min(sample_size, mesh_.vertex_count()), watch_);
-    const uint32_t stride = 1 + mesh_.vertex_count() / sample_size;
+    const uint32_t stride = 1 + mesh_.live_vertices() / sample_size;
     uint64_t inside = 0;
-    for (uint32_t v = 0; v < mesh_.vertex_count(); v += stride)
+    uint32_t live = 0;
+    watched_loop(mesh_.vertex_count(), watch_, [&](size_t i) {
+        const auto v = static_cast<uint32_t>(i);
+        if (!mesh_.is_live_vertex(v) || live++ % stride != 0) return;
         inside += is_removable(v) && patches_.is_inside(v, codebook) ? 1 : 0;
-    watch_.check();
+    });
     return static_cast<double>(inside * stride);
 }
 

@@ -68,13 +68,9 @@ PlaneQuadrics::PlaneQuadrics(const CollapseParts& parts, const PlaneOptions& opt
 }
 
 void PlaneQuadrics::add_triangles(const CollapseMesh& mesh, const PlaneOptions& options, const Watch& watch) {
-    watched_loop(mesh.triangle_count(), watch, [&](size_t i) {
-        const auto t = static_cast<uint32_t>(i);
-        if (!mesh.is_live_triangle(t)) return;
-        const uint32_t v[] = {mesh.corner_vertex(3 * t), mesh.corner_vertex(3 * t + 1),
-                              mesh.corner_vertex(3 * t + 2)};
+    for_each_triangle(mesh, watch, [&](uint32_t, const std::array<uint32_t, 3>& v) {
         const Vec3d a = mesh.position(v[0]);
-        const Vec3d twice_area = cross(mesh.position(v[1]) - a, mesh.position(v[2]) - a);
+        const Vec3d twice_area = area_normal(a, mesh.position(v[1]), mesh.position(v[2]));
         const double area = 0.5 * length(twice_area);
         if (!(area > 0)) return;
         const Vec3d normal = normalized(twice_area);

@@ -59,13 +59,9 @@ void SphereRule::measure(const CollapseMesh& mesh, const Watch& watch) {
     quadrics_.assign(mesh.vertex_count(), Quadric{});
     std::vector<Vec3d> normals(mesh.vertex_count());
     double sum = 0;
-    watched_loop(mesh.triangle_count(), watch, [&](size_t i) {
-        const auto t = static_cast<uint32_t>(i);
-        if (!mesh.is_live_triangle(t)) return;
-        const uint32_t v[] = {mesh.corner_vertex(3 * t), mesh.corner_vertex(3 * t + 1),
-                              mesh.corner_vertex(3 * t + 2)};
+    for_each_triangle(mesh, watch, [&](uint32_t, const std::array<uint32_t, 3>& v) {
         const Vec3d a = mesh.position(v[0]), b = mesh.position(v[1]), c = mesh.position(v[2]);
-        const Vec3d normal = cross(b - a, c - a);
+        const Vec3d normal = area_normal(a, b, c);
         const Quadric plane = plane_quadric(normalized(normal), a, length(normal));
         for (const uint32_t vertex : v) {
             normals[vertex] = normals[vertex] + normal;

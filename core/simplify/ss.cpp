@@ -109,7 +109,7 @@ Simplified simplify(const Mesh& source, std::span<const Transform>, const Target
 }  // namespace
 
 Neighborhood neighborhood_in(const ParameterValues& values) {
-    return values.choice("neighborhood") == "euclidean" ? Neighborhood::euclidean : Neighborhood::connected;
+    return values.text("neighborhood") == "euclidean" ? Neighborhood::euclidean : Neighborhood::connected;
 }
 
 Simplified scan_spheres(const Mesh& source, const Target& target, Neighborhood neighborhood,

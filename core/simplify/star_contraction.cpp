@@ -6,21 +6,10 @@
 namespace coppice {
 
 StarContraction::StarContraction(const Mesh& source, const Target& target, const Watch& watch)
-    : source_(source),
-      target_(target),
-      mesh_(source, watch),
-      features_(find_features(mesh_, watch)),
-      rules_(mesh_, features_.kinds, watch),
-      bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
-      lines_(mesh_, features_, line_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
-      uvs_(mesh_, source, watch),
-      deviation_(mesh_, watch),
+    : GuardedMesh(source, target, false, watch),
       values_(source, mesh_.wedge_sources()),
       groups_(mesh_),
-      count_(target, mesh_),
-      marks_(mesh_.vertex_count()) {
-    watch.check();
-}
+      marks_(watched_vector<Mark>(mesh_.vertex_count(), watch)) {}
 
 bool StarContraction::kinds_allow(std::span<const uint32_t> vertices) const {
     uint32_t corners = 0, seams = 0, borders = 0;
@@ -68,8 +57,7 @@ Refusal StarContraction::check(std::span<const uint32_t> vertices, const Placeme
             if (!uvs_.may_blend(c, groups_.shares(mesh_.corner_wedge(c)))) return Refusal::topology;
     }
     next_deviation_ = deviation(vertices);
-    const bool too_far = target_.error_model_units && next_deviation_ > *target_.error_model_units;
-    return too_far ? Refusal::error : Refusal::none;
+    return check_deviation(next_deviation_);
 }
 
 // Seams and corners stay; a set that reaches a border goes to it.
@@ -206,12 +194,8 @@ void StarContraction::contract(std::span<const uint32_t> vertices) {
     if (!moves_nothing_) mesh_.move(kept_, point_);
 }
 
-// A limit that was set is the reason wherever it stopped anything; else what stopped most.
 Simplified StarContraction::finish(StopReason reason, const Watch& watch) const {
-    return {.mesh = mesh_.extract(source_, values_, watch),
-            .error_model_units = deviation_.largest(),
-            .certified = false,
-            .stop_reason = reason};
+    return simplified(mesh_.extract(source_, values_, watch), reason);
 }
 
 }  // namespace coppice

@@ -18,15 +18,7 @@
 #include <vector>
 
 #include "core/base/watch.h"
-#include "core/simplify/algorithm.h"
-#include "core/simplify/bounds_guard.h"
-#include "core/simplify/collapse_mesh.h"
-#include "core/simplify/collapse_rules.h"
-#include "core/simplify/deviation.h"
-#include "core/simplify/line_guard.h"
-#include "core/simplify/refusal_counts.h"
-#include "core/simplify/target.h"
-#include "core/simplify/uv_guard.h"
+#include "core/simplify/guarded_mesh.h"
 #include "core/simplify/wedge_groups.h"
 #include "core/simplify/wedge_values.h"
 
@@ -38,19 +30,14 @@ struct Placement {
     std::span<const double> weights;  // one per vertex of the set; >= 0, summing to 1
 };
 
-class StarContraction {
+class StarContraction : public GuardedMesh {
   public:
     // Keeps references to the source and the target.
     StarContraction(const Mesh& source, const Target& target, const Watch& watch);
-    StarContraction(const StarContraction&) = delete;
-    StarContraction& operator=(const StarContraction&) = delete;
 
+    using GuardedMesh::mesh;
     CollapseMesh& mesh() { return mesh_; }
-    const CollapseMesh& mesh() const { return mesh_; }
     const UvGuard& uvs() const { return uvs_; }
-
-    bool done() const { return count_.is_met(mesh_); }
-    double fraction() const { return count_.fraction(mesh_); }  // of the way there, 0..1
 
     // Whether kinds of vertices allow it: the first rule, and quick.
     bool kinds_allow(std::span<const uint32_t> vertices) const;
@@ -60,10 +47,6 @@ class StarContraction {
     // Contracts two or more distinct live vertices unless a rule is broken. Where lines or locked vertices
     // are among them, these say where to. The first of the set that kinds favour stays and stands for all.
     Refusal try_contract(std::span<const uint32_t> vertices, const Placement& placement);
-
-    // Refusals are counted; they explain why nothing is left to contract.
-    void forget_refusals() { refusals_ = {}; }
-    StopReason reason_for_refusals() const { return refusals_.reason(); }
 
     Simplified finish(StopReason reason, const Watch& watch) const;
 
@@ -79,19 +62,8 @@ class StarContraction {
     bool stays(uint32_t corner) const { return moves_nothing_ && mesh_.corner_vertex(corner) == kept_; }
     bool changes_line() const { return borders_ + anchors_ > 1 && borders_ > 0; }
 
-    const Mesh& source_;
-    const Target& target_;
-    CollapseMesh mesh_;
-    Features features_;
-    CollapseRules rules_;
-    BoundsGuard bounds_;
-    LineGuard lines_;
-    UvGuard uvs_;
-    Deviation deviation_;
     WedgeValues values_;
     WedgeGroups groups_;
-    TargetCount count_;
-    RefusalCounts refusals_;
 
     // Of the set that is looked at.
     uint32_t kept_ = no_index, borders_ = 0, anchors_ = 0;

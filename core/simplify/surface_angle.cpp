@@ -42,13 +42,13 @@ Stitch stitch_named(std::string_view name) {
 
 Simplified simplify(const Mesh& source, std::span<const Transform>, const Target& target,
                     const ParameterValues& values, const Watch& watch) {
-    const std::optional<uint64_t> count = parse_whole_number(values.choice("count"));  // else "all"
+    const std::optional<uint64_t> count = parse_whole_number(values.text("count"));  // else "all"
     return remove_by_angle(source, target,
                            {.angle = values.number("angle"),
-                            .all_pairs = values.choice("pairs") == "all",
+                            .all_pairs = values.text("pairs") == "all",
                             .count = count,
-                            .stitch = stitch_named(values.choice("stitch")),
-                            .lines = values.choice("borders") == "remove"},
+                            .stitch = stitch_named(values.text("stitch")),
+                            .lines = values.text("borders") == "remove"},
                            watch);
 }
 

@@ -35,13 +35,9 @@ UnifiedError::UnifiedError(const CollapseParts& parts, const UnifiedOptions& opt
 
 // In the mean instance an area is times `shrink`, a distance to its plane is divided by that.
 void UnifiedError::add_planes(const InstanceMetric& metric, const Watch& watch) {
-    watched_loop(mesh_.triangle_count(), watch, [&](size_t i) {
-        const auto t = static_cast<uint32_t>(i);
-        if (!mesh_.is_live_triangle(t)) return;
-        const uint32_t v[] = {mesh_.corner_vertex(3 * t), mesh_.corner_vertex(3 * t + 1),
-                              mesh_.corner_vertex(3 * t + 2)};
+    for_each_triangle(mesh_, watch, [&](uint32_t, const std::array<uint32_t, 3>& v) {
         const Vec3d a = mesh_.position(v[0]);
-        const Vec3d twice_area = cross(mesh_.position(v[1]) - a, mesh_.position(v[2]) - a);
+        const Vec3d twice_area = area_normal(a, mesh_.position(v[1]), mesh_.position(v[2]));
         const double area = 0.5 * length(twice_area);
         if (!(area > 0)) return;
         const Vec3d normal = normalized(twice_area);

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "core/base/watched_loop.h"
-
 #include "core/simplify/neighbours.h"
 
 namespace coppice {

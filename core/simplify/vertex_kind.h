@@ -11,6 +11,9 @@
 
 namespace coppice {
 
+// Of the angle between the triangles at an edge: 30 degrees from flat. What is sharper is a crease.
+inline constexpr double crease_cosine = 0.866025404;
+
 enum class VertexKind : uint8_t {
     manifold,  // a disc inside one chart
     border,    // on one open border, off seams

@@ -10,21 +10,10 @@ namespace coppice {
 
 VertexRemoval::VertexRemoval(const Mesh& source, const Target& target, Stitch stitch, bool lines,
                              const Watch& watch)
-    : source_(source),
-      target_(target),
+    : GuardedMesh(source, target, false, watch),
       stitch_(stitch),
       lines_may_go_(lines),
-      mesh_(source, watch),
-      features_(find_features(mesh_, watch)),
-      rules_(mesh_, features_.kinds, watch),
-      bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
-      lines_(mesh_, features_, line_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
-      uvs_(mesh_, source, watch),
-      deviation_(mesh_, watch),
-      count_(target, mesh_),
-      normals_(rules_.first_normals()) {
-    watch.check();
-}
+      normals_(rules_.first_normals()) {}
 
 bool VertexRemoval::kind_allows(uint32_t vertex) const {
     if (mesh_.valence(vertex) > largest_removable_valence) return false;
@@ -67,8 +56,7 @@ Refusal VertexRemoval::check(uint32_t vertex) {
     for (const Part& part : parts_)
         if (!fill(part, vertex)) return Refusal::topology;
     next_deviation_ = deviation(vertex);
-    const bool too_far = target_.error_model_units && next_deviation_ > *target_.error_model_units;
-    return too_far ? Refusal::error : Refusal::none;
+    return check_deviation(next_deviation_);
 }
 
 bool VertexRemoval::is_seam(uint32_t spoke) const {
@@ -227,10 +215,7 @@ void VertexRemoval::replace_fan() {
 
 Simplified VertexRemoval::finish(StopReason reason, const Watch& watch) {
     if (stitch_ == Stitch::delaunay && removed_ > 0) delaunay_flips(mesh_, uvs_, watch);
-    return {.mesh = mesh_.extract(source_, watch),
-            .error_model_units = deviation_.largest(),
-            .certified = false,
-            .stop_reason = reason};
+    return simplified(mesh_.extract(source_, watch), reason);
 }
 
 }  // namespace coppice

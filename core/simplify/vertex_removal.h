@@ -3,8 +3,7 @@
 //
 // A vertex may be removed when
 //   - its triangles are one disc, inside a chart, or half a disc at a border; at a seam, both halves are
-//     filled apart, so that the line runs on; as it does along a
-//     crease that passes through;
+//     filled apart, so that the line runs on, as it does along a crease that passes through;
 //   - the hole can be filled (hole_triangulation.h) without an edge or a triangle that is there already, and
 //     no new triangle is flattened, turned away from the surface (collapse_rules.h) or mirrored in its
 //     texture (uv_guard.h);
@@ -17,43 +16,24 @@
 #include <vector>
 
 #include "core/base/watch.h"
-#include "core/simplify/algorithm.h"
-#include "core/simplify/bounds_guard.h"
-#include "core/simplify/collapse_mesh.h"
-#include "core/simplify/collapse_rules.h"
-#include "core/simplify/deviation.h"
+#include "core/simplify/guarded_mesh.h"
 #include "core/simplify/hole_triangulation.h"
-#include "core/simplify/line_guard.h"
-#include "core/simplify/refusal_counts.h"
-#include "core/simplify/target.h"
-#include "core/simplify/uv_guard.h"
 #include "core/simplify/vertex_fan.h"
 
 namespace coppice {
-
-// Between the triangles at an edge: 30 degrees from flat, as for delaunay_flips.h. What is sharper is a
-// crease.
-inline constexpr float crease_cosine = 0.866025404F;
 
 inline float cosine_between(Vec3f a, Vec3f b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-class VertexRemoval {
+class VertexRemoval : public GuardedMesh {
   public:
     // Keeps references to the source and the target. lines: vertices of borders and seams may go.
     // Stitch::paper works without any of the rules, but for those of kinds, since values of two charts cannot
     // be mixed.
     VertexRemoval(const Mesh& source, const Target& target, Stitch stitch, bool lines, const Watch& watch);
-    VertexRemoval(const VertexRemoval&) = delete;
-    VertexRemoval& operator=(const VertexRemoval&) = delete;
 
-    const CollapseMesh& mesh() const { return mesh_; }
-    VertexKind kind(uint32_t vertex) const { return rules_.kind(vertex); }
     Vec3f normal(uint32_t triangle) const { return normals_[triangle]; }  // unit, zero without area
-
-    bool done() const { return count_.is_met(mesh_); }
-    double fraction() const { return count_.fraction(mesh_); }  // of the way there, 0..1
 
     // Whether its kind allows it to go: the first rule, and quick.
     bool kind_allows(uint32_t vertex) const;
@@ -65,10 +45,6 @@ class VertexRemoval {
     // Removes a live vertex unless a rule is broken. `around` are then the vertices around it.
     Refusal try_remove(uint32_t vertex);
     const std::vector<uint32_t>& around() const { return fan_.ring(); }
-
-    // Refusals are counted; they explain why nothing is left to remove.
-    void forget_refusals() { refusals_ = {}; }
-    StopReason reason_for_refusals() const { return refusals_.reason(); }
 
     // Turns edges that are not Delaunay, if that is how holes are filled.
     Simplified finish(StopReason reason, const Watch& watch);
@@ -103,19 +79,8 @@ class VertexRemoval {
     void remove(uint32_t vertex);
     void replace_fan();
 
-    const Mesh& source_;
-    const Target& target_;
     Stitch stitch_;
     bool lines_may_go_;
-    CollapseMesh mesh_;
-    Features features_;
-    CollapseRules rules_;
-    BoundsGuard bounds_;
-    LineGuard lines_;
-    UvGuard uvs_;
-    Deviation deviation_;
-    TargetCount count_;
-    RefusalCounts refusals_;
     HoleTriangulation hole_;
     std::vector<Vec3f> normals_;  // per triangle
     uint32_t removed_ = 0;

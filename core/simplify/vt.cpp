@@ -25,7 +25,7 @@ std::span<const Parameter> parameters() {
 
 Simplified simplify(const Mesh& source, std::span<const Transform>, const Target& target,
                     const ParameterValues& values, const Watch& watch) {
-    const bool paper = values.choice("circumcenter") == "paper";
+    const bool paper = values.text("circumcenter") == "paper";
     return simplify_by_triangles(
         source, target,
         {.decide = decide,

@@ -53,8 +53,8 @@ std::span<const Parameter> parameters() {
 
 Simplified simplify(const Mesh& source, std::span<const Transform>, const Target& target,
                     const ParameterValues& values, const Watch& watch) {
-    const bool paper = values.choice("circumcenter") == "paper";
-    const bool as_printed = values.choice("rule") == "paper";
+    const bool paper = values.text("circumcenter") == "paper";
+    const bool as_printed = values.text("rule") == "paper";
     return simplify_by_triangles(source, target,
                                  {.decide = as_printed ? decide_as_printed : decide_short,
                                   .circumcentre = paper ? Circumcentre::paper : Circumcentre::clamp,

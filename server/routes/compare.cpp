@@ -5,13 +5,7 @@
 namespace coppice {
 
 Route compare_route(Services& services) {
-    return {.method = "POST",
-            .pattern = "/v1/compare",
-            .handler =
-                [&services](Request& request, Response& response) {
-                    submit_and_wait(JobKind::compare, request, response, services);
-                },
-            .takes_options = true};
+    return submit_and_wait_route("/v1/compare", JobKind::compare, services);
 }
 
 }  // namespace coppice

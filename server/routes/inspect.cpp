@@ -5,13 +5,7 @@
 namespace coppice {
 
 Route inspect_route(Services& services) {
-    return {.method = "POST",
-            .pattern = "/v1/inspect",
-            .handler =
-                [&services](Request& request, Response& response) {
-                    submit_and_wait(JobKind::inspect, request, response, services);
-                },
-            .takes_options = true};
+    return submit_and_wait_route("/v1/inspect", JobKind::inspect, services);
 }
 
 }  // namespace coppice

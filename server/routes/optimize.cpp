@@ -5,13 +5,7 @@
 namespace coppice {
 
 Route optimize_route(Services& services) {
-    return {.method = "POST",
-            .pattern = "/v1/optimize",
-            .handler =
-                [&services](Request& request, Response& response) {
-                    submit_and_wait(JobKind::optimize, request, response, services);
-                },
-            .takes_options = true};
+    return submit_and_wait_route("/v1/optimize", JobKind::optimize, services);
 }
 
 }  // namespace coppice

@@ -1,6 +1,7 @@
 #include "server/routes/submission.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/ascii.h"
 #include "core/base/error.h"
@@ -118,6 +119,15 @@ void submit_and_wait(JobKind kind, Request& request, Response& response, Service
     } else {
         set_problem(response, record->job.problem.value());
     }
+}
+
+Route submit_and_wait_route(std::string path, JobKind kind, Services& services) {
+    return {.method = "POST",
+            .pattern = std::move(path),
+            .handler = [kind, &services](
+                           Request& request,
+                           Response& response) { submit_and_wait(kind, request, response, services); },
+            .takes_options = true};
 }
 
 }  // namespace coppice

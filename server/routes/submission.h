@@ -5,6 +5,7 @@
 #include <string>
 
 #include "server/http/message.h"
+#include "server/http/router.h"
 #include "server/routes/services.h"
 
 namespace coppice {
@@ -31,5 +32,8 @@ std::optional<JobRecord> wait_for_job(const Job& job, const Request& request, co
 
 // Submits, waits, and answers with the result, the problem, or 202.
 void submit_and_wait(JobKind kind, Request& request, Response& response, Services& services);
+
+// POST to that path does so.
+Route submit_and_wait_route(std::string path, JobKind kind, Services& services);
 
 }  // namespace coppice

@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/adjacency.h"
+#include "tests/core/simplify/run_algorithm.h"
 #include "tests/support/properties.h"
 #include "tests/support/shapes.h"
 
 namespace coppice {
 namespace {
 
-Simplified simplify(const Mesh& mesh, const Target& target,
-                    const std::map<std::string, ParameterValue>& parameters = {}) {
-    const Algorithm a = fad();
-    return a.simplify(mesh, {}, target, ParameterValues::parse(a.parameters, parameters), {});
+Simplified simplify(const Mesh& mesh, const Target& target, const test::Parameters& parameters = {}) {
+    return test::run_algorithm(fad(), mesh, target, parameters);
 }
 
 const Mesh& ball() {

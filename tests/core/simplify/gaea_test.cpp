@@ -11,17 +11,17 @@
 #include "core/simplify/codebook.h"
 #include "core/simplify/codebook_family.h"
 #include "core/simplify/normal_patches.h"
+#include "tests/core/simplify/run_algorithm.h"
 #include "tests/support/properties.h"
 #include "tests/support/shapes.h"
 
 namespace coppice {
 namespace {
 
-using Parameters = std::map<std::string, ParameterValue>;
+using test::Parameters;
 
 Simplified simplify(const Mesh& mesh, const Target& target, const Parameters& parameters = {}) {
-    const Algorithm a = gaea();
-    return a.simplify(mesh, {}, target, ParameterValues::parse(a.parameters, parameters), {});
+    return test::run_algorithm(gaea(), mesh, target, parameters);
 }
 
 size_t left(const Mesh& mesh, const Parameters& parameters) {

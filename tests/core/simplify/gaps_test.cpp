@@ -4,16 +4,14 @@
 
 #include <algorithm>
 
+#include "tests/core/simplify/run_algorithm.h"
 #include "tests/support/shapes.h"
 
 namespace coppice {
 namespace {
 
-Simplified simplify(const Mesh& mesh, uint64_t triangles,
-                    const std::map<std::string, ParameterValue>& parameters = {}) {
-    const Algorithm a = gaps();
-    return a.simplify(mesh, {}, {.triangles = triangles}, ParameterValues::parse(a.parameters, parameters),
-                      {});
+Simplified simplify(const Mesh& mesh, uint64_t triangles, const test::Parameters& parameters = {}) {
+    return test::run_algorithm(gaps(), mesh, {.triangles = triangles}, parameters);
 }
 
 // A flat sheet, black up to its middle and white from there.

@@ -14,6 +14,7 @@
 #include "core/mesh/weld.h"
 #include "core/simplify/edge_collapse.h"
 #include "core/simplify/unified_error.h"
+#include "tests/core/simplify/run_algorithm.h"
 #include "tests/support/properties.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface.h"
@@ -21,11 +22,10 @@
 namespace coppice {
 namespace {
 
-using Parameters = std::map<std::string, ParameterValue>;
+using test::Parameters;
 
 Simplified simplify(const Mesh& mesh, const Target& target, const Parameters& parameters = {}) {
-    const Algorithm algorithm = its();
-    return algorithm.simplify(mesh, {}, target, ParameterValues::parse(algorithm.parameters, parameters), {});
+    return test::run_algorithm(its(), mesh, target, parameters);
 }
 
 Simplified halve(const Mesh& mesh) {

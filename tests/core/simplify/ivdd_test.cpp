@@ -3,15 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "core/simplify/mean_edge.h"
+#include "tests/core/simplify/run_algorithm.h"
 #include "tests/support/shapes.h"
 
 namespace coppice {
 namespace {
 
-Simplified simplify(const Mesh& mesh, const Target& target,
-                    const std::map<std::string, ParameterValue>& parameters = {}) {
-    const Algorithm a = ivdd();
-    return a.simplify(mesh, {}, target, ParameterValues::parse(a.parameters, parameters), {});
+Simplified simplify(const Mesh& mesh, const Target& target, const test::Parameters& parameters = {}) {
+    return test::run_algorithm(ivdd(), mesh, target, parameters);
 }
 
 const Mesh& ball() {

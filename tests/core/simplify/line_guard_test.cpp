@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/simplify/registry.h"
+#include "tests/core/simplify/run_algorithm.h"
 #include "tests/support/properties.h"
 #include "tests/support/shapes.h"
 
@@ -9,8 +10,7 @@ namespace coppice {
 namespace {
 
 Simplified simplify(const Mesh& mesh, uint64_t triangles) {
-    const Algorithm& its = find_algorithm("its");
-    return its.simplify(mesh, {}, {.triangles = triangles}, ParameterValues::parse(its.parameters, {}), {});
+    return test::run_algorithm(find_algorithm("its"), mesh, {.triangles = triangles});
 }
 
 TEST(LineGuard, keeps_the_corners_of_a_square_sheet) {

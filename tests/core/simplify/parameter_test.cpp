@@ -58,7 +58,7 @@ TEST(ParameterValues, reads_text_and_typed_values_alike) {
     EXPECT_EQ(parse({{"part", 0.5}}).number("part"), 0.5);
     EXPECT_TRUE(parse({{"strict", "true"}}).boolean("strict"));
     EXPECT_TRUE(parse({{"strict", true}}).boolean("strict"));
-    EXPECT_EQ(parse({{"color", "green"}}).choice("color"), "green");
+    EXPECT_EQ(parse({{"color", "green"}}).text("color"), "green");
 }
 
 TEST(ParameterValues, reads_lengths_in_mean_edges_or_with_the_suffix_u_in_mesh_units) {
@@ -76,15 +76,15 @@ TEST(ParameterValues, reads_lengths_in_mean_edges_or_with_the_suffix_u_in_mesh_u
 }
 
 TEST(ParameterValues, reads_texts_that_match_their_pattern_and_whole_numbers_for_them) {
-    EXPECT_EQ(parse({{"count", "all"}}).choice("count"), "all");
-    EXPECT_EQ(parse({{"count", 3.0}}).choice("count"), "3");
+    EXPECT_EQ(parse({{"count", "all"}}).text("count"), "all");
+    EXPECT_EQ(parse({{"count", 3.0}}).text("count"), "3");
     for (const std::string& text : {std::string("some"), std::string("0"), std::string(1000, '1')})
         EXPECT_EQ(refusal([&] { parse({{"count", text}}); }).code(), ErrorCode::option_invalid);
 }
 
 TEST(ParameterValues, fills_in_defaults_and_leaves_the_rest_unset) {
     const ParameterValues values = parse({});
-    EXPECT_EQ(values.choice("color"), "red");
+    EXPECT_EQ(values.text("color"), "red");
     EXPECT_EQ(values.number("passes"), 1.0);
     EXPECT_EQ(values.number("part"), std::nullopt);
     EXPECT_FALSE(values.boolean("strict"));

@@ -6,17 +6,15 @@
 #include <cmath>
 
 #include "core/simplify/plane_error.h"
+#include "tests/core/simplify/run_algorithm.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface.h"
 
 namespace coppice {
 namespace {
 
-Simplified simplify(const Mesh& mesh, uint64_t triangles,
-                    const std::map<std::string, ParameterValue>& parameters = {}) {
-    const Algorithm a = quadric();
-    return a.simplify(mesh, {}, {.triangles = triangles}, ParameterValues::parse(a.parameters, parameters),
-                      {});
+Simplified simplify(const Mesh& mesh, uint64_t triangles, const test::Parameters& parameters = {}) {
+    return test::run_algorithm(quadric(), mesh, {.triangles = triangles}, parameters);
 }
 
 double volume(const Mesh& mesh) {

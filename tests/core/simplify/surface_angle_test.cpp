@@ -7,16 +7,15 @@
 
 #include "core/mesh/adjacency.h"
 #include "core/simplify/collapse_rules.h"
+#include "tests/core/simplify/run_algorithm.h"
 #include "tests/support/properties.h"
 #include "tests/support/shapes.h"
 
 namespace coppice {
 namespace {
 
-Simplified simplify(const Mesh& mesh, const Target& target,
-                    const std::map<std::string, ParameterValue>& parameters = {}) {
-    const Algorithm a = surface_angle();
-    return a.simplify(mesh, {}, target, ParameterValues::parse(a.parameters, parameters), {});
+Simplified simplify(const Mesh& mesh, const Target& target, const test::Parameters& parameters = {}) {
+    return test::run_algorithm(surface_angle(), mesh, target, parameters);
 }
 
 const Mesh& ball() {

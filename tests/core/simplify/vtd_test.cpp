@@ -2,15 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/core/simplify/run_algorithm.h"
 #include "tests/support/shapes.h"
 
 namespace coppice {
 namespace {
 
-Simplified simplify(const Mesh& mesh, const Target& target,
-                    const std::map<std::string, ParameterValue>& parameters = {}) {
-    const Algorithm a = vtd();
-    return a.simplify(mesh, {}, target, ParameterValues::parse(a.parameters, parameters), {});
+Simplified simplify(const Mesh& mesh, const Target& target, const test::Parameters& parameters = {}) {
+    return test::run_algorithm(vtd(), mesh, target, parameters);
 }
 
 // One triangle 1 2 3 with edges 12 of 1, 23 of 1.4, 13 of 1.6, in a sheet whose others are longer than 10.
