@@ -53,7 +53,7 @@ void repair_normals(Mesh& mesh, WarningTally& tally) {
     for (uint32_t wedge = 0; wedge < mesh.wedge_count(); ++wedge) {
         if (!with[wedge]) continue;
         float* value = found->values.data() + size_t{3} * wedge;
-        const double size = length({value[0], value[1], value[2]});
+        const double size = length(Vec3d{value[0], value[1], value[2]});
         if (!std::isfinite(size) || size == 0) {
             without_direction.push_back(wedge);
             continue;

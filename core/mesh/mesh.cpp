@@ -57,4 +57,19 @@ Mesh without_triangles(const Mesh& from, const Watch& watch) {
     return mesh;
 }
 
+Mesh without_geometry(const Mesh& from) {
+    Mesh mesh;
+    mesh.name = from.name;
+    mesh.source_mesh = from.source_mesh;
+    mesh.position_storage = from.position_storage;
+    mesh.slots = from.slots;
+    const auto described = [](const Attribute& a) { return Attribute{a.name, a.components, a.storage}; };
+    for (const Attribute& a : from.attributes) mesh.attributes.push_back(described(a));
+    for (const MorphTarget& target : from.morph_targets) {
+        mesh.morph_targets.emplace_back();
+        for (const Attribute& a : target.deltas) mesh.morph_targets.back().deltas.push_back(described(a));
+    }
+    return mesh;
+}
+
 }  // namespace coppice

@@ -92,6 +92,9 @@ struct Mesh {
 // A copy of everything else: of what may be very large, looking at the watch in between.
 Mesh without_triangles(const Mesh& from, const Watch& watch);
 
+// A copy of everything but vertices, wedges, their values and triangles.
+Mesh without_geometry(const Mesh& from);
+
 // True when every index is in range and every array has the length that the others imply. For asserts and
 // tests.
 bool is_consistent(const Mesh& mesh);

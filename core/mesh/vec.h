@@ -25,25 +25,31 @@ inline Vec3f to_float(Vec3d v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-inline double dot(Vec3d a, Vec3d b) {
+template <typename T>
+T dot(Vec3<T> a, Vec3<T> b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-inline Vec3d cross(Vec3d a, Vec3d b) {
+template <typename T>
+Vec3<T> cross(Vec3<T> a, Vec3<T> b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 // Of the triangle (a, b, c), counter-clockwise. Its length is twice the area.
-inline Vec3d area_normal(Vec3d a, Vec3d b, Vec3d c) {
+template <typename T>
+Vec3<T> area_normal(Vec3<T> a, Vec3<T> b, Vec3<T> c) {
     return cross(b - a, c - a);
 }
-inline double squared_length(Vec3d v) {
+template <typename T>
+T squared_length(Vec3<T> v) {
     return dot(v, v);
 }
-inline double length(Vec3d v) {
+template <typename T>
+T length(Vec3<T> v) {
     return std::sqrt(dot(v, v));
 }
 // The zero vector stays zero.
-inline Vec3d normalized(Vec3d v) {
-    const double l = length(v);
+template <typename T>
+Vec3<T> normalized(Vec3<T> v) {
+    const T l = length(v);
     return l > 0 ? v * (1 / l) : v;
 }
 

@@ -28,17 +28,17 @@ Vec3d bunny_point(double s, double t, const std::vector<double>& phases) {
     const double lean = std::clamp((z - 0.2) / 1.0, 0.0, 1.0);
     Vec3d p = {radius * std::cos(angle), 0.85 * radius * std::sin(angle), z};
 
-    const Vec3d direction = normalized({p.x, p.y, p.z - (z > 0.7 ? 1.2 : 0)});
+    const Vec3d direction = normalized(Vec3d{p.x, p.y, p.z - (z > 0.7 ? 1.2 : 0)});
     for (const double side : {-1.0, 1.0}) {
         if (z > 0.7) {
             p = p +
-                Vec3d{-0.35, 0.25 * side, 0.95} * bump(direction, normalized({-0.3, 0.5 * side, 0.8}), 0.3);
+                Vec3d{-0.35, 0.25 * side, 0.95} * bump(direction, normalized(Vec3d{-0.3, 0.5 * side, 0.8}), 0.3);
         } else {
             p = p +
-                Vec3d{0.3, 0.1 * side, -0.1} * bump(direction, normalized({0.8, 0.45 * side, -0.5}), 0.35);
+                Vec3d{0.3, 0.1 * side, -0.1} * bump(direction, normalized(Vec3d{0.8, 0.45 * side, -0.5}), 0.35);
         }
     }
-    if (z <= 0.7) p = p + Vec3d{-0.3, 0, 0.05} * bump(direction, normalized({-1, 0, -0.35}), 0.25);
+    if (z <= 0.7) p = p + Vec3d{-0.3, 0, 0.05} * bump(direction, normalized(Vec3d{-1, 0, -0.35}), 0.25);
     p.x += 0.5 * lean * lean * (3 - 2 * lean);
 
     double fur = 0;
@@ -90,7 +90,7 @@ Scene make_bunny(const SampleSize& size) {
     for (uint32_t i = 0; i < size.copies; ++i) {
         const uint32_t column = i % side, row = i / side;
         const Vec3d place = {4.0 * column, 4.0 * row, 0};
-        const Vec3d tilt_axis = normalized({random.uniform(-1, 1), random.uniform(-1, 1), 0.2});
+        const Vec3d tilt_axis = normalized(Vec3d{random.uniform(-1, 1), random.uniform(-1, 1), 0.2});
         const double spin = random.uniform(0, 2 * std::numbers::pi), tilt = random.uniform(-0.4, 0.4);
         const double grow = random.uniform(0.5, 1.5);
         add_node(scene, "bunny-" + std::to_string(i + 1),

@@ -115,7 +115,8 @@ std::array<double, 16> to_column_major(const Transform& transform) {
 }
 
 double determinant(const Transform& t) {
-    return dot({t.m[0], t.m[1], t.m[2]}, cross({t.m[4], t.m[5], t.m[6]}, {t.m[8], t.m[9], t.m[10]}));
+    return dot(Vec3d{t.m[0], t.m[1], t.m[2]},
+               cross(Vec3d{t.m[4], t.m[5], t.m[6]}, Vec3d{t.m[8], t.m[9], t.m[10]}));
 }
 
 double largest_scale(const Transform& transform) {

@@ -8,26 +8,6 @@
 
 namespace coppice {
 
-namespace {
-
-// Everything but vertices, wedges, their values and triangles.
-Mesh without_geometry(const Mesh& source) {
-    Mesh mesh;
-    mesh.name = source.name;
-    mesh.source_mesh = source.source_mesh;
-    mesh.position_storage = source.position_storage;
-    mesh.slots = source.slots;
-    const auto described = [](const Attribute& a) { return Attribute{a.name, a.components, a.storage}; };
-    for (const Attribute& a : source.attributes) mesh.attributes.push_back(described(a));
-    for (const MorphTarget& target : source.morph_targets) {
-        mesh.morph_targets.emplace_back();
-        for (const Attribute& a : target.deltas) mesh.morph_targets.back().deltas.push_back(described(a));
-    }
-    return mesh;
-}
-
-}  // namespace
-
 CollapseMesh::CollapseMesh(const Mesh& source, const Watch& watch)
     : corner_vertex_(watched_vector(source.triangles.size(), watch, no_index)),
       after_(watched_vector(source.triangles.size(), watch, no_index)),

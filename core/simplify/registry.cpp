@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/base/error.h"
+#include "core/simplify/attribute_quadric/attribute_quadric.h"
 #include "core/simplify/fad.h"
 #include "core/simplify/fass.h"
 #include "core/simplify/gaea.h"
@@ -23,9 +24,20 @@
 namespace coppice {
 
 std::span<const Algorithm> algorithms() {
-    static const std::array<Algorithm, 13> list = {its(),           ias(),  gaps(),    quadric(), gaea(),
-                                                   surface_angle(), vt(),   fad(),     ivdd(),    ss(),
-                                                   vtd(),           fass(), openmesh()};
+    static const std::array<Algorithm, 14> list = {attribute_quadric(),
+                                                   its(),
+                                                   ias(),
+                                                   gaps(),
+                                                   quadric(),
+                                                   gaea(),
+                                                   surface_angle(),
+                                                   vt(),
+                                                   fad(),
+                                                   ivdd(),
+                                                   ss(),
+                                                   vtd(),
+                                                   fass(),
+                                                   openmesh()};
     return list;
 }
 

@@ -74,7 +74,7 @@ TEST_P(EverySample, has_unit_normals_that_agree_with_its_triangles) {
             Vec3d sum;
             for (size_t c = 0; c < 3; ++c) {
                 const float* n = &normal.values[size_t{3} * mesh.triangles[3 * t + c]];
-                ASSERT_NEAR(length({n[0], n[1], n[2]}), 1, 1e-5);
+                ASSERT_NEAR(length(Vec3f{n[0], n[1], n[2]}), 1, 1e-5);
                 sum = sum + Vec3d{n[0], n[1], n[2]};
             }
             ASSERT_GT(dot(sum, face), 0) << mesh.name << ", triangle " << t;

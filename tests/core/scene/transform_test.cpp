@@ -31,7 +31,7 @@ Mesh triangle() {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5F}};
     mesh.wedge_vertex = {0, 1, 2};
-    const Vec3f n = to_float(normalized(cross({1, 0, 0}, {0, 1, 0.5})));
+    const Vec3f n = to_float(normalized(cross(Vec3d{1, 0, 0}, Vec3d{0, 1, 0.5})));
     mesh.attributes = {
         {.name = "NORMAL", .components = 3, .values = {n.x, n.y, n.z, n.x, n.y, n.z, n.x, n.y, n.z}},
         {.name = "TANGENT", .components = 4, .values = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}}};

@@ -1,0 +1,130 @@
+// Passes of edge collapses over a packed mesh. A pass ranks all edges by what their best point costs, and
+// takes the cheap ones, cheapest first, each vertex once; then the mesh is packed again.
+//
+// Only what is simple is treated: the inside of a chart, borders, seams between two charts; a vertex where
+// more meets stays. Costs are quadrics of planes (Garland and Heckbert 1997) and of attributes (Hoppe 1999).
+// The point is the least one among those that keep the volume (Lindstrom and Turk 1998): the planes alone put
+// it outside of whatever bulges, which is most of their error.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/watch.h"
+#include "core/simplify/algorithm.h"
+#include "core/simplify/attribute_quadric/centred_quadric.h"
+#include "core/simplify/attribute_quadric/packed_mesh.h"
+#include "core/simplify/attribute_quadric/wedge_quadrics.h"
+#include "core/simplify/wedge_values.h"
+
+namespace coppice {
+
+struct PackedOptions {
+    AttributeWeights weights = {};
+    bool lock_borders = false;
+    double share_of_pass = 1;  // of what is to go, at most, in one pass; smaller is slower and more exact
+    std::function<double(Vec3d)> instance_weight = {};  // as PlaneOptions has it
+};
+
+// One object, one thread.
+class PackedCollapse {
+  public:
+    // Keeps a reference to the source.
+    PackedCollapse(const Mesh& source, const PackedOptions& options, const Watch& watch);
+
+    // Until the target is met, or nothing goes any more.
+    void run(const Target& target, const Watch& watch);
+
+    bool is_met(const Target& target) const;
+    // The largest that a collapse was off its planes, in the mean, in mesh units.
+    double error_model_units() const;
+    bool met_error_limit() const { return met_error_limit_; }
+
+    Mesh extract(const Watch& watch) const;
+
+  private:
+    // Kinds and edges decide who goes, and whether the other may move for it.
+    struct Merge {
+        uint32_t removed = no_index, kept = no_index;
+        bool moves = false;
+    };
+    struct Candidate {
+        uint32_t removed = 0, kept = 0;
+        float cost = 0;
+    };
+    // A triangle that stays, seen from the vertex that stays.
+    struct Leaf {
+        Vec3f ahead, behind, normal;                 // the other two corners; twice the area long
+        uint32_t next = 0, previous = 0, spoke = 0;  // vertices
+        bool of_removed = false;
+    };
+
+    void add_planes(const Watch& watch);
+    void add_lines(const Watch& watch);
+    void rank(const Watch& watch);
+    std::optional<Merge> merge_along(uint32_t vertex, uint32_t spoke) const;
+    void find_pairs(const Merge& merge);
+    CentredQuadric planes_of(const Merge& merge, Vec3f offset) const;
+    float cost(const Merge& merge);
+    std::optional<Vec3f> best_point(const CentredQuadric& q, Vec3f offset, const Constraint& keep) const;
+    Vec3f best_of_edge(const CentredQuadric& q, Vec3f offset) const;
+
+    // How many may go yet.
+    struct ToGo {
+        uint64_t triangles = 0, vertices = 0;
+    };
+    ToGo to_go(const Target& target) const;
+    uint64_t pass(const ToGo& to_go, float squared_limit, const Watch& watch);
+    void pack(const Watch& watch);
+    bool is_in_box(Vec3f point) const;
+    uint32_t try_collapse(const Candidate& candidate, float squared_limit);
+    bool has_sound_link(const Merge& merge);
+    bool gather_leaves(const Merge& merge);
+    std::optional<Vec3f> place(const Merge& merge, const CentredQuadric& q, Vec3f offset);
+    bool keeps_orientation(const Merge& merge, Vec3f at) const;
+    bool keeps_texture(const Merge& merge, Vec3f at) const;
+    std::optional<float> line_away(const Merge& merge, Vec3f at) const;
+    std::optional<uint32_t> line_neighbour(uint32_t vertex, uint32_t but) const;
+    void apply(const Merge& merge, Vec3f at, const CentredQuadric& q, Vec3f offset);
+
+    uint32_t now(uint32_t vertex) const { return vertex_becomes_[vertex]; }
+    uint32_t wedge_now(uint32_t wedge) const {
+        return mesh_.has_wedges() ? wedge_becomes_[wedge] : vertex_becomes_[wedge];
+    }
+
+    const Mesh& source_;
+    PackedOptions options_;
+    PackedMesh mesh_;
+    WedgeQuadrics attributes_;
+    std::vector<uint32_t> first_wedges_;  // the source's, by the number that a wedge had at the start
+    WedgeValues values_;                  // of what has no quadric: skins, tangents, shapes to morph to
+    bool blends_values_ = false;
+    std::vector<uint32_t> wedge_origin_;  // per wedge: its number at the start
+    std::vector<CentredQuadric> planes_;  // per vertex
+    std::vector<Vec3f> facing_;           // per vertex: where the surface faced at the start; unit or zero
+    std::vector<float> away_;             // per vertex of a line: how far it may be from where it was
+    std::vector<bool> moved_;             // per vertex
+    float squared_error_ = 0;             // in diagonals
+    bool met_error_limit_ = false;
+
+    // Of a pass.
+    std::vector<Candidate> candidates_;
+    std::vector<uint32_t> order_;
+    std::vector<uint32_t> vertex_becomes_, wedge_becomes_;
+    std::vector<bool> taken_;
+    std::vector<uint32_t> marks_;
+    uint32_t round_ = 0;
+
+    // Of a collapse.
+    std::array<WedgeQuadrics::Pair, 2> pairs_;
+    uint32_t pair_count_ = 0;
+    std::vector<Leaf> leaves_;
+    uint32_t dying_ = 0;
+    Constraint volume_;
+};
+
+}  // namespace coppice
