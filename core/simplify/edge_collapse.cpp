@@ -6,7 +6,7 @@ namespace coppice {
 
 EdgeCollapse::EdgeCollapse(const Mesh& source, const Target& target, const CollapseOptions& options,
                            const MakeError& make_error, const Watch& watch)
-    : GuardedMesh(source, target, options.lock_sharp_borders, watch),
+    : GuardedMesh(source, target, options.guards, watch),
       steps_(watch),
       has_values_(!source.attributes.empty() || !source.morph_targets.empty()),
       options_(options),

@@ -27,7 +27,7 @@ namespace coppice {
 struct CollapseOptions {
     Freedom freedom = Freedom::anywhere;  // at most
     AttributeScales scales = {};
-    bool lock_sharp_borders = false;  // for errors that do not see borders; see vertex_kind.h
+    GuardOptions guards = {};
 };
 
 class EdgeCollapse : public GuardedMesh {

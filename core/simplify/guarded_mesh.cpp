@@ -14,15 +14,16 @@ Features features_of(const CollapseMesh& mesh, bool lock_sharp, const Watch& wat
 
 }  // namespace
 
-GuardedMesh::GuardedMesh(const Mesh& source, const Target& target, bool lock_sharp_borders,
+GuardedMesh::GuardedMesh(const Mesh& source, const Target& target, const GuardOptions& options,
                          const Watch& watch)
     : source_(source),
       target_(target),
       mesh_(source, watch),
-      features_(features_of(mesh_, lock_sharp_borders, watch)),
+      features_(features_of(mesh_, options.lock_sharp_borders, watch)),
       rules_(mesh_, features_.kinds, watch),
-      bounds_(mesh_, bounds_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
-      lines_(mesh_, features_, line_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
+      bounds_(mesh_, options.tolerance * bounds_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
+      lines_(mesh_, features_, options.tolerance * line_tolerance_of_diagonal * mesh_.box().diagonal(),
+             watch),
       uvs_(mesh_, source, watch),
       deviation_(mesh_, watch),
       count_(target, mesh_) {

@@ -16,6 +16,11 @@
 
 namespace coppice {
 
+struct GuardOptions {
+    bool lock_sharp_borders = false;  // for errors that do not see borders; see vertex_kind.h
+    double tolerance = 1;  // part of what lines and the box may move; less if some of it is used up
+};
+
 // One object, one thread.
 class GuardedMesh {
   public:
@@ -33,8 +38,8 @@ class GuardedMesh {
     StopReason reason_for_refusals() const { return refusals_.reason(); }
 
   protected:
-    // Keeps references to the source and the target. lock_sharp_borders: see vertex_kind.h.
-    GuardedMesh(const Mesh& source, const Target& target, bool lock_sharp_borders, const Watch& watch);
+    // Keeps references to the source and the target.
+    GuardedMesh(const Mesh& source, const Target& target, const GuardOptions& options, const Watch& watch);
     ~GuardedMesh() = default;
 
     // Of a step after which the surface has moved so far, in mesh units.

@@ -57,7 +57,7 @@ double InstanceWeights::operator()(Vec3d n) const {
     for (const auto& [c, weight] : stretches_) {
         const double size =
             length(Vec3d{c[0] * n.x + c[1] * n.y + c[2] * n.z, c[3] * n.x + c[4] * n.y + c[5] * n.z,
-                    c[6] * n.x + c[7] * n.y + c[8] * n.z});
+                         c[6] * n.x + c[7] * n.y + c[8] * n.z});
         if (size > 0) sum += weight / size;
     }
     return sum;

@@ -54,9 +54,10 @@ Simplified simplify(const Mesh& source, std::span<const Transform> instances, co
     watch.check();
     if (is_small_enough(source, target)) return already_smaller(source, watch);
     const bool faithful = values.text("mode") == "faithful";
-    const CollapseOptions options = {.freedom = Freedom::end_point,
-                                     .scales = attribute_scales(values),
-                                     .lock_sharp_borders = faithful};  // full has planes that hold them
+    const CollapseOptions options = {
+        .freedom = Freedom::end_point,
+        .scales = attribute_scales(values),
+        .guards = {.lock_sharp_borders = faithful}};  // full has planes that hold them
     const UnifiedOptions error = {.weights = faithful ? PlaneWeights::count : PlaneWeights::area,
                                   .instances = instances,
                                   .max_geometric_error = values.number("max_geometric_error")};

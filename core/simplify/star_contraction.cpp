@@ -6,7 +6,7 @@
 namespace coppice {
 
 StarContraction::StarContraction(const Mesh& source, const Target& target, const Watch& watch)
-    : GuardedMesh(source, target, false, watch),
+    : GuardedMesh(source, target, {}, watch),
       values_(source, mesh_.wedge_sources()),
       groups_(mesh_),
       marks_(watched_vector<Mark>(mesh_.vertex_count(), watch)) {}

@@ -10,7 +10,7 @@ namespace coppice {
 
 VertexRemoval::VertexRemoval(const Mesh& source, const Target& target, Stitch stitch, bool lines,
                              const Watch& watch)
-    : GuardedMesh(source, target, false, watch),
+    : GuardedMesh(source, target, {}, watch),
       stitch_(stitch),
       lines_may_go_(lines),
       normals_(rules_.first_normals()) {}

@@ -48,7 +48,7 @@ Simplified finish(const Mesh& mesh, const Target& target, double error, const Wa
     Target rest = target;
     if (rest.error_model_units) *rest.error_model_units = std::max(0.0, *rest.error_model_units - error);
     EdgeCollapse work(
-        mesh, rest, {},
+        mesh, rest, {.guards = {.tolerance = 1 - packed_tolerance}},
         [&](const CollapseParts& parts) { return std::make_unique<GapsError>(parts, PlaneOptions{}, watch); },
         watch);
     CheapestFirst(work, watch).run();

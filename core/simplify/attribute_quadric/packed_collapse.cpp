@@ -21,11 +21,11 @@ constexpr float stiffness = 1e-4F;
 constexpr double border_weight = 10, seam_weight = 1;  // of the plane across a line, times its edge squared
 constexpr float least_cosine_at_once = 0.25F, least_cosine_to_facing = 0.25F;
 constexpr float degenerate_aspect = 1e-6F;  // as in collapse_rules.cpp
-constexpr size_t most_leaves = 96;
+constexpr float no_cost = -1;
 // A pass takes nothing that costs more than this times what the last edge would that it needs.
 constexpr float patience = 1.5F;
-constexpr auto box_tolerance = static_cast<float>(bounds_tolerance_of_diagonal);
-constexpr auto line_tolerance = static_cast<float>(line_tolerance_of_diagonal);
+constexpr auto box_tolerance = static_cast<float>(packed_tolerance * bounds_tolerance_of_diagonal);
+constexpr auto line_tolerance = static_cast<float>(packed_tolerance * line_tolerance_of_diagonal);
 
 bool is_degenerate(Vec3f a, Vec3f b, Vec3f c, Vec3f normal) {
     const float longest = std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
@@ -61,6 +61,8 @@ PackedCollapse::PackedCollapse(const Mesh& source, const PackedOptions& options,
     std::iota(wedge_origin_.begin(), wedge_origin_.end(), 0U);
     away_.resize(mesh_.vertex_count());
     moved_.resize(mesh_.vertex_count());
+    changed_.assign(mesh_.vertex_count(), 1);
+    costs_.resize(mesh_.triangles.size());
     if (options_.lock_borders)
         std::replace(mesh_.kinds.begin(), mesh_.kinds.end(), VertexKind::border, VertexKind::corner);
     add_planes(watch);
@@ -112,10 +114,11 @@ void PackedCollapse::add_lines(const Watch& watch) {
     });
 }
 
-// Each edge is found from one of its ends alone.
-std::optional<PackedCollapse::Merge> PackedCollapse::merge_along(uint32_t vertex, uint32_t spoke) const {
+// Each edge is found at one of its corners alone.
+std::optional<PackedCollapse::Merge> PackedCollapse::merge_along(uint32_t from) const {
     using enum VertexKind;
-    const uint32_t next = mesh_.spokes[spoke].next;
+    const uint32_t to = from % 3 == 2 ? from - 2 : from + 1;
+    const uint32_t vertex = mesh_.triangles[from], next = mesh_.triangles[to];
     const VertexKind a = mesh_.kinds[vertex], b = mesh_.kinds[next];
     if (a == complex || b == complex) return {};
     if (a == manifold || b == manifold) {
@@ -126,14 +129,14 @@ std::optional<PackedCollapse::Merge> PackedCollapse::merge_along(uint32_t vertex
     const std::optional<uint32_t> twin = mesh_.against(vertex, next);
     VertexKind line = border;
     if (twin) {
-        if (next < vertex) return {};
-        const auto here = mesh_.wedges(vertex, spoke), there = mesh_.wedges(vertex, *twin);
-        if (here[0] == there[0] && here[1] == there[2]) return {};
+        if (next < vertex || !mesh_.has_wedges()) return {};
+        const auto there = mesh_.wedges(vertex, *twin);
+        if (mesh_.corner_wedges[from] == there[0] && mesh_.corner_wedges[to] == there[2]) return {};
         line = seam;
     }
     if (a == line && b == line) return Merge{next, vertex, true};
     if (a == line && b == corner) return Merge{vertex, next, false};
-    if (a == corner && b == line) return Merge{next, vertex, false};
+    if (a == VertexKind::corner && b == line) return Merge{next, vertex, false};
     return {};
 }
 
@@ -191,26 +194,29 @@ float PackedCollapse::cost(const Merge& m) {
     return q(point ? *point : best_of_edge(q, offset));
 }
 
+// What none of whose ends has changed costs what it did.
 void PackedCollapse::rank(const Watch& watch) {
-    candidates_.clear();
-    watched_loop(mesh_.vertex_count(), watch, [&](size_t i) {
-        const auto v = static_cast<uint32_t>(i);
-        for (uint32_t s = mesh_.first_spoke[v]; s < mesh_.first_spoke[v + 1]; ++s) {
-            const std::optional<Merge> merge = merge_along(v, s);
-            if (merge) candidates_.push_back({merge->removed, merge->kept, cost(*merge)});
+    order_.clear();
+    watched_loop(mesh_.triangle_count(), watch, [&](size_t t) {
+        const auto first = static_cast<uint32_t>(3 * t);
+        for (uint32_t corner = first; corner < first + 3; ++corner) {
+            const uint32_t ahead = corner == first + 2 ? first : corner + 1;
+            if ((changed_[mesh_.triangles[corner]] | changed_[mesh_.triangles[ahead]]) != 0) {
+                const std::optional<Merge> merge = merge_along(corner);
+                costs_[corner] = merge ? cost(*merge) : no_cost;
+            }
+            if (costs_[corner] >= 0) order_.push_back(corner);
         }
     });
-    // By the upper bits of the cost, two digits of 9: a quarter of one percent apart is equal.
-    const auto key = [this](uint32_t i) { return std::bit_cast<uint32_t>(candidates_[i].cost) >> 14; };
-    std::vector<uint32_t> other(candidates_.size());
-    order_.resize(candidates_.size());
-    std::iota(order_.begin(), order_.end(), 0U);
+    // By the upper bits of the cost, two digits of 9: what is a quarter of one percent apart is equal.
+    const auto key = [this](uint32_t corner) { return std::bit_cast<uint32_t>(costs_[corner]) >> 14; };
+    sorted_.resize(order_.size());
     for (const uint32_t shift : {0U, 9U}) {
         std::array<uint32_t, 513> begin{};
-        for (const uint32_t i : order_) ++begin[(key(i) >> shift & 511U) + 1];
+        for (const uint32_t corner : order_) ++begin[(key(corner) >> shift & 511U) + 1];
         std::partial_sum(begin.begin(), begin.end(), begin.begin());
-        for (const uint32_t i : order_) other[begin[key(i) >> shift & 511U]++] = i;
-        order_.swap(other);
+        for (const uint32_t corner : order_) sorted_[begin[key(corner) >> shift & 511U]++] = corner;
+        order_.swap(sorted_);
     }
 }
 
@@ -237,29 +243,26 @@ void PackedCollapse::run(const Target& target, const Watch& watch) {
 }
 
 uint64_t PackedCollapse::pass(const ToGo& to_go, float squared_limit, const Watch& watch) {
-    const uint32_t count = mesh_.vertex_count();
-    vertex_becomes_.resize(count);
+    vertex_becomes_.resize(mesh_.vertex_count());
     std::iota(vertex_becomes_.begin(), vertex_becomes_.end(), 0U);
     wedge_becomes_.resize(mesh_.has_wedges() ? mesh_.wedge_count() : 0);
     std::iota(wedge_becomes_.begin(), wedge_becomes_.end(), 0U);
-    taken_.assign(count, false);
-    marks_.assign(count, 0);
-    round_ = 0;
     rank(watch);
     if (order_.empty()) return 0;
+    changed_.assign(mesh_.vertex_count(), 0);
 
     const uint64_t collapses = std::min(to_go.triangles / 2, to_go.vertices);
     const auto wanted = static_cast<size_t>(static_cast<double>(collapses) * options_.share_of_pass);
-    const float dearest = candidates_[order_[std::min(order_.size() - 1, wanted)]].cost * patience;
+    const float dearest = costs_[order_[std::min(order_.size() - 1, wanted)]] * patience;
     uint64_t triangles = 0, vertices = 0;
     size_t step = 0;
-    for (const uint32_t i : order_) {
+    for (const uint32_t corner : order_) {
         if (triangles >= to_go.triangles || vertices >= to_go.vertices) break;
-        const Candidate& candidate = candidates_[i];
-        if (candidate.cost > dearest && triangles > to_go.triangles / 10) break;
-        if (taken_[candidate.removed] || taken_[candidate.kept]) continue;
+        if (costs_[corner] > dearest && triangles > to_go.triangles / 10) break;
+        const Merge merge = *merge_along(corner);
+        if (is_taken(merge.removed) || is_taken(merge.kept)) continue;
         if (++step % 4096 == 0) watch.check();
-        const uint32_t gone = try_collapse(candidate, squared_limit);
+        const uint32_t gone = try_collapse(merge, squared_limit);
         triangles += gone;
         vertices += gone > 0 ? 1 : 0;
     }
@@ -275,13 +278,14 @@ void PackedCollapse::pack(const Watch& watch) {
     renumber(away_, numbers.vertices, numbers.vertices_left);
     renumber(moved_, numbers.vertices, numbers.vertices_left);
     renumber(wedge_origin_, numbers.wedges, numbers.wedges_left);
+    renumber(changed_, numbers.vertices, numbers.vertices_left);
+    renumber(costs_, numbers.triangles, numbers.triangles_left, 3);
     attributes_.renumber_wedges(numbers);
 }
 
 // Triangles that went; none where a rule is broken.
-uint32_t PackedCollapse::try_collapse(const Candidate& candidate, float squared_limit) {
-    const VertexKind a = mesh_.kinds[candidate.removed], b = mesh_.kinds[candidate.kept];
-    const Merge m = {candidate.removed, candidate.kept, a == b};
+uint32_t PackedCollapse::try_collapse(const Merge& m, float squared_limit) {
+    if (!gather(m.removed, removed_ring_) || !gather(m.kept, kept_ring_)) return 0;
     if (!has_sound_link(m) || !gather_leaves(m)) return 0;
     const Vec3f offset = mesh_.positions[m.removed] - mesh_.positions[m.kept];
     const CentredQuadric planes = planes_of(m, offset);
@@ -293,7 +297,7 @@ uint32_t PackedCollapse::try_collapse(const Candidate& candidate, float squared_
         met_error_limit_ = true;
         return 0;
     }
-    if (a != VertexKind::manifold) {
+    if (mesh_.kinds[m.removed] != VertexKind::manifold) {
         const std::optional<float> away = line_away(m, *at);
         if (!away) return 0;
         away_[m.kept] = *away;
@@ -303,76 +307,86 @@ uint32_t PackedCollapse::try_collapse(const Candidate& candidate, float squared_
     return dying_;
 }
 
-// The ends have no neighbours in common but the corners opposite to their edge (Dey and others 1999), and no
-// two triangles come to lie on each other.
-bool PackedCollapse::has_sound_link(const Merge& m) {
-    round_ += 2;
-    const uint32_t near = round_ - 1, common = round_;
-    uint32_t at_edge = 0, shared = 0;
-    const auto for_each_spoke = [this](uint32_t vertex, auto use) {
-        for (uint32_t s = mesh_.first_spoke[vertex]; s < mesh_.first_spoke[vertex + 1]; ++s) {
-            const uint32_t next = now(mesh_.spokes[s].next), previous = now(mesh_.spokes[s].previous);
-            if (next != previous && next != vertex && previous != vertex) use(next, previous);
-        }
-    };
-    for_each_spoke(m.removed, [&](uint32_t next, uint32_t previous) {
-        at_edge += next == m.kept || previous == m.kept;
-        marks_[next] = marks_[previous] = near;
-    });
-    marks_[m.kept] = 0;
-    for_each_spoke(m.kept, [&](uint32_t next, uint32_t previous) {
-        for (const uint32_t v : {next, previous}) {
-            if (marks_[v] != near) continue;
-            marks_[v] = common;
-            ++shared;
-        }
-    });
-    if (at_edge == 0 || shared != at_edge) return false;
-    const auto closes = [&](uint32_t vertex) {
-        bool found = false;
-        for_each_spoke(vertex, [&](uint32_t next, uint32_t previous) {
-            found |= marks_[next] == common && marks_[previous] == common;
-        });
-        return found;
-    };
-    return !closes(m.removed) || !closes(m.kept);
+// Around the inside of a chart each neighbour comes next once; elsewhere some are only previous. False where
+// there are too many.
+bool PackedCollapse::gather(uint32_t vertex, Ring& ring) const {
+    if (mesh_.valence(vertex) > Ring::most) return false;
+    uint32_t count = 0;
+    for (uint32_t s = mesh_.first_spoke[vertex]; s < mesh_.first_spoke[vertex + 1]; ++s) {
+        const uint32_t next = now(mesh_.spokes[s].next), previous = now(mesh_.spokes[s].previous);
+        ring.next[count] = next, ring.previous[count] = previous, ring.spoke[count] = s;
+        ring.neighbours[count] = next;
+        count += next != previous && next != vertex && previous != vertex ? 1 : 0;
+    }
+    ring.count = ring.neighbour_count = count;
+    if (mesh_.kinds[vertex] == VertexKind::manifold || mesh_.kinds[vertex] == VertexKind::seam) return true;
+    const uint32_t* nexts_end = ring.next.data() + count;
+    for (uint32_t i = 0; i < count; ++i)
+        if (std::find(std::as_const(ring.next).data(), nexts_end, ring.previous[i]) == nexts_end)
+            ring.neighbours[ring.neighbour_count++] = ring.previous[i];
+    return true;
 }
 
+// The ends have no neighbours in common but the corners opposite to their edge (Dey and others 1999), and no
+// two triangles come to lie on each other.
+bool PackedCollapse::has_sound_link(const Merge& m) const {
+    const Ring &r = removed_ring_, &k = kept_ring_;
+    std::array<uint32_t, 2> opposite = {no_index, no_index};
+    uint32_t at_edge = 0;
+    for (uint32_t i = 0; i < r.count; ++i) {
+        if (r.next[i] != m.kept && r.previous[i] != m.kept) continue;
+        if (at_edge == 2) return false;
+        opposite[at_edge++] = r.next[i] == m.kept ? r.previous[i] : r.next[i];
+    }
+    uint32_t shared = 0;
+    for (uint32_t i = 0; i < r.neighbour_count; ++i) {
+        const uint32_t* end = k.neighbours.data() + k.neighbour_count;
+        shared += std::find(k.neighbours.data(), end, r.neighbours[i]) != end ? 1 : 0;
+    }
+    if (at_edge == 0 || shared != at_edge) return false;
+    const auto closes = [&opposite](const Ring& ring) {
+        for (uint32_t i = 0; i < ring.count; ++i) {
+            if ((ring.next[i] == opposite[0] && ring.previous[i] == opposite[1]) ||
+                (ring.next[i] == opposite[1] && ring.previous[i] == opposite[0])) {
+                return true;
+            }
+        }
+        return false;
+    };
+    return !closes(r) || !closes(k);
+}
+
+// False where something would be left without a triangle.
 bool PackedCollapse::gather_leaves(const Merge& m) {
     leaves_.clear();
     dying_ = 0;
     volume_ = {};
-    std::array<uint32_t, 2> opposite = {no_index, no_index};
+    std::array<uint32_t, 2> opposite = {};
     const Vec3f origin = mesh_.positions[m.kept];
     for (const bool of_removed : {true, false}) {
-        const uint32_t vertex = of_removed ? m.removed : m.kept, other = of_removed ? m.kept : m.removed;
-        const Vec3f here = mesh_.positions[vertex] - origin;
-        for (uint32_t s = mesh_.first_spoke[vertex]; s < mesh_.first_spoke[vertex + 1]; ++s) {
-            const uint32_t next = now(mesh_.spokes[s].next), previous = now(mesh_.spokes[s].previous);
-            if (next == previous || next == vertex || previous == vertex) continue;
+        const Ring& ring = of_removed ? removed_ring_ : kept_ring_;
+        const uint32_t other = of_removed ? m.kept : m.removed;
+        const Vec3f here = of_removed ? mesh_.positions[m.removed] - origin : Vec3f{};
+        for (uint32_t i = 0; i < ring.count; ++i) {
+            const uint32_t next = ring.next[i], previous = ring.previous[i];
             const bool dies = next == other || previous == other;
             if (dies && !of_removed) continue;
             const Vec3f a = mesh_.positions[next] - origin, b = mesh_.positions[previous] - origin;
             const Vec3f outer = cross(a, b);
             volume_.offset += dot(here, outer);
             if (dies) {
-                if (dying_ < 2) opposite[dying_] = next == other ? previous : next;
-                ++dying_;
+                opposite[dying_++] = next == other ? previous : next;
                 continue;
             }
-            if (leaves_.size() == most_leaves) return false;
             volume_.normal = volume_.normal + outer;
-            leaves_.push_back({a, b, cross(a - here, b - here), next, previous, s, of_removed});
+            leaves_.push_back({a, b, cross(a - here, b - here), next, previous, ring.spoke[i], of_removed});
         }
     }
-    // Nothing is left without a triangle.
-    for (uint32_t i = 0; i < std::min(dying_, 2U); ++i) {
-        const bool stays = std::any_of(leaves_.begin(), leaves_.end(), [&](const Leaf& leaf) {
-            return leaf.next == opposite[i] || leaf.previous == opposite[i];
-        });
-        if (!stays) return false;
-    }
-    return dying_ <= 2;
+    if (mesh_.kinds[m.removed] == VertexKind::manifold) return true;
+    return std::all_of(opposite.begin(), opposite.begin() + dying_, [&](uint32_t vertex) {
+        return std::any_of(leaves_.begin(), leaves_.end(),
+                           [&](const Leaf& leaf) { return leaf.next == vertex || leaf.previous == vertex; });
+    });
 }
 
 std::optional<Vec3f> PackedCollapse::place(const Merge& m, const CentredQuadric& planes, Vec3f offset) {
@@ -398,28 +412,33 @@ bool PackedCollapse::is_in_box(Vec3f point) const {
 }
 
 // No triangle turns by more than about 75 degrees, now or away from where the surface faced at its corners at
-// the start; none becomes degenerate.
+// the start; none becomes degenerate. Cosines are compared as squares.
 bool PackedCollapse::keeps_orientation(const Merge& m, Vec3f at) const {
-    const Vec3f facing = m.moves ? facing_[m.removed] + facing_[m.kept] : facing_[m.kept];
-    const Vec3f here = normalized(facing), offset = mesh_.positions[m.removed] - mesh_.positions[m.kept];
+    const Vec3f here = m.moves ? normalized(facing_[m.removed] + facing_[m.kept]) : facing_[m.kept];
+    const Vec3f offset = mesh_.positions[m.removed] - mesh_.positions[m.kept];
+    const auto is_less = [](float cosine_times, float least_cosine, float squared) {
+        return cosine_times < 0 || cosine_times * cosine_times < least_cosine * least_cosine * squared;
+    };
     for (const Leaf& leaf : leaves_) {
-        if (!leaf.of_removed && !m.moves) continue;
+        if (!leaf.of_removed && !m.moves) break;
         const Vec3f normal = cross(leaf.ahead - at, leaf.behind - at);
-        const Vec3f before = leaf.of_removed ? offset : Vec3f{};
-        const bool was_degenerate = is_degenerate(before, leaf.ahead, leaf.behind, leaf.normal);
-        if (is_degenerate(at, leaf.ahead, leaf.behind, normal)) {
-            if (was_degenerate) continue;
+        const Vec3f others = facing_[leaf.next] + facing_[leaf.previous];
+        const float squared = squared_length(normal), squared_before = squared_length(leaf.normal);
+        const bool turns = is_less(dot(normal, leaf.normal), least_cosine_at_once, squared * squared_before);
+        const bool faces_away = is_less(dot(here + others, normal), 3 * least_cosine_to_facing, squared);
+        const bool is_flat = is_degenerate(at, leaf.ahead, leaf.behind, normal);
+        if (!turns && !faces_away && !is_flat) continue;
+        const bool was_degenerate =
+            is_degenerate(leaf.of_removed ? offset : Vec3f{}, leaf.ahead, leaf.behind, leaf.normal);
+        if (is_flat && was_degenerate) continue;
+        if (is_flat || (turns && !was_degenerate) || (faces_away && was_degenerate)) return false;
+        if (!faces_away) continue;
+        // Where it faced away before, it may as long as that is no worse.
+        const Vec3f own = facing_[leaf.of_removed ? m.removed : m.kept];
+        if (dot(here + others, normal) * std::sqrt(squared_before) <
+            dot(own + others, leaf.normal) * std::sqrt(squared)) {
             return false;
         }
-        const float size = length(normal);
-        if (!was_degenerate && dot(normal, leaf.normal) < least_cosine_at_once * size * length(leaf.normal))
-            return false;
-        const Vec3f others = facing_[leaf.next] + facing_[leaf.previous];
-        const float agreement = dot(here + others, normal);
-        if (agreement >= 3 * least_cosine_to_facing * size) continue;
-        const Vec3f own = facing_[leaf.of_removed ? m.removed : m.kept];
-        if (was_degenerate || agreement * length(leaf.normal) < dot(own + others, leaf.normal) * size)
-            return false;
     }
     return true;
 }
@@ -516,7 +535,7 @@ void PackedCollapse::apply(const Merge& m, Vec3f at, const CentredQuadric& plane
         moved_[m.kept] = true;
     }
     vertex_becomes_[m.removed] = m.kept;
-    taken_[m.removed] = taken_[m.kept] = true;
+    changed_[m.kept] = 1;
 }
 
 double PackedCollapse::error_model_units() const {

@@ -23,6 +23,9 @@
 
 namespace coppice {
 
+// Part of what lines and the box may move by; the rest is for who goes on from there.
+inline constexpr double packed_tolerance = 0.5;
+
 struct PackedOptions {
     AttributeWeights weights = {};
     bool lock_borders = false;
@@ -52,21 +55,25 @@ class PackedCollapse {
         uint32_t removed = no_index, kept = no_index;
         bool moves = false;
     };
-    struct Candidate {
-        uint32_t removed = 0, kept = 0;
-        float cost = 0;
+    // The triangles at a vertex as they are now, in the course of a pass.
+    struct Ring {
+        static constexpr uint32_t most = 64;
+        std::array<uint32_t, most> next = {}, previous = {}, spoke = {};
+        uint32_t count = 0;
+        std::array<uint32_t, 2 * most> neighbours = {};
+        uint32_t neighbour_count = 0;
     };
-    // A triangle that stays, seen from the vertex that stays.
+    // A triangle that stays, seen from where the vertex that stays is before the collapse.
     struct Leaf {
-        Vec3f ahead, behind, normal;                 // the other two corners; twice the area long
-        uint32_t next = 0, previous = 0, spoke = 0;  // vertices
+        Vec3f ahead, behind, normal;  // the other two corners; twice the area long
+        uint32_t next = 0, previous = 0, spoke = 0;
         bool of_removed = false;
     };
 
     void add_planes(const Watch& watch);
     void add_lines(const Watch& watch);
     void rank(const Watch& watch);
-    std::optional<Merge> merge_along(uint32_t vertex, uint32_t spoke) const;
+    std::optional<Merge> merge_along(uint32_t from) const;  // a corner, to the next one
     void find_pairs(const Merge& merge);
     CentredQuadric planes_of(const Merge& merge, Vec3f offset) const;
     float cost(const Merge& merge);
@@ -81,8 +88,9 @@ class PackedCollapse {
     uint64_t pass(const ToGo& to_go, float squared_limit, const Watch& watch);
     void pack(const Watch& watch);
     bool is_in_box(Vec3f point) const;
-    uint32_t try_collapse(const Candidate& candidate, float squared_limit);
-    bool has_sound_link(const Merge& merge);
+    uint32_t try_collapse(const Merge& merge, float squared_limit);
+    bool gather(uint32_t vertex, Ring& ring) const;
+    bool has_sound_link(const Merge& merge) const;
     bool gather_leaves(const Merge& merge);
     std::optional<Vec3f> place(const Merge& merge, const CentredQuadric& q, Vec3f offset);
     bool keeps_orientation(const Merge& merge, Vec3f at) const;
@@ -92,6 +100,8 @@ class PackedCollapse {
     void apply(const Merge& merge, Vec3f at, const CentredQuadric& q, Vec3f offset);
 
     uint32_t now(uint32_t vertex) const { return vertex_becomes_[vertex]; }
+    // Each vertex takes part in one collapse a pass.
+    bool is_taken(uint32_t vertex) const { return now(vertex) != vertex || changed_[vertex] != 0; }
     uint32_t wedge_now(uint32_t wedge) const {
         return mesh_.has_wedges() ? wedge_becomes_[wedge] : vertex_becomes_[wedge];
     }
@@ -112,16 +122,15 @@ class PackedCollapse {
     bool met_error_limit_ = false;
 
     // Of a pass.
-    std::vector<Candidate> candidates_;
-    std::vector<uint32_t> order_;
+    std::vector<float> costs_;      // per corner, of the edge to the next; none for edges that may not go
+    std::vector<uint8_t> changed_;  // per vertex: in the last pass
+    std::vector<uint32_t> order_, sorted_;  // corners
     std::vector<uint32_t> vertex_becomes_, wedge_becomes_;
-    std::vector<bool> taken_;
-    std::vector<uint32_t> marks_;
-    uint32_t round_ = 0;
 
     // Of a collapse.
     std::array<WedgeQuadrics::Pair, 2> pairs_;
     uint32_t pair_count_ = 0;
+    Ring removed_ring_, kept_ring_;
     std::vector<Leaf> leaves_;
     uint32_t dying_ = 0;
     Constraint volume_;

@@ -186,22 +186,24 @@ Renumbering PackedMesh::compact(std::span<const uint32_t> vertex_becomes,
     Renumbering result;
     result.vertices.assign(vertex_count(), no_index);
     if (has_wedges()) result.wedges.assign(wedge_count(), no_index);
-    size_t left = 0;
+    result.triangles.assign(triangle_count(), no_index);
+    uint32_t& left = result.triangles_left;
     watched_loop(triangle_count(), watch, [&](size_t t) {
         std::array<uint32_t, 3> v{};
         for (size_t k = 0; k < 3; ++k) v[k] = vertex_becomes[triangles[3 * t + k]];
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return;
         for (size_t k = 0; k < 3; ++k) {
-            triangles[3 * left + k] = v[k];
+            triangles[size_t{3} * left + k] = v[k];
             result.vertices[v[k]] = 0;
             if (!has_wedges()) continue;
             const uint32_t wedge = wedge_becomes[corner_wedges[3 * t + k]];
-            corner_wedges[3 * left + k] = wedge;
+            corner_wedges[size_t{3} * left + k] = wedge;
             result.wedges[wedge] = 0;
         }
-        triangle_slot[left++] = triangle_slot[t];
+        triangle_slot[left] = triangle_slot[t];
+        result.triangles[t] = left++;
     });
-    triangles.resize(3 * left);
+    triangles.resize(size_t{3} * left);
     triangle_slot.resize(left);
     const auto number = [](std::vector<uint32_t>& numbers) {
         uint32_t next = 0;
@@ -215,7 +217,7 @@ Renumbering PackedMesh::compact(std::span<const uint32_t> vertex_becomes,
     renumber(kinds, result.vertices, result.vertices_left);
     renumber(vertex_source, result.vertices, result.vertices_left);
     if (has_wedges()) {
-        corner_wedges.resize(3 * left);
+        corner_wedges.resize(size_t{3} * left);
         result.wedges_left = number(result.wedges);
         for (uint32_t& w : corner_wedges) w = result.wedges[w];
     } else {

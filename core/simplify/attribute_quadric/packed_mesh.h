@@ -19,11 +19,11 @@ namespace coppice {
 
 // New numbers of what is left; no_index for what is gone.
 struct Renumbering {
-    std::vector<uint32_t> vertices, wedges;
-    uint32_t vertices_left = 0, wedges_left = 0;
+    std::vector<uint32_t> vertices, wedges, triangles;
+    uint32_t vertices_left = 0, wedges_left = 0, triangles_left = 0;
 };
 
-// Moves what is stored per vertex (or wedge), `stride` values each, to its new place.
+// Moves what is stored per vertex, wedge or triangle, `stride` values each, to its new place.
 template <typename T>
 void renumber(std::vector<T>& values, std::span<const uint32_t> numbers, size_t left, size_t stride = 1) {
     for (size_t i = 0; i < numbers.size(); ++i) {

@@ -62,7 +62,7 @@ std::ostream& operator<<(std::ostream& out, const Variant& v) {
 
 // Parameters whose values are ways to work.
 bool is_mode(const Parameter& p) {
-    return p.id == "mode" || p.id == "stitch" || p.id == "borders";
+    return p.id == "mode" || p.id == "stitch" || p.id == "borders" || p.id == "quality";
 }
 
 // Every algorithm as it is by default, and with other modes that guard the surface too.
