@@ -85,6 +85,7 @@ Algorithm its() {
             .parameters = parameters(),
             .instance_aware = true,
             .keeps_values = true,
+            .bytes_per_triangle = 320,
             .simplify = simplify};
 }
 
