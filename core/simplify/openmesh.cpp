@@ -43,6 +43,11 @@ class HalfEdgeMesh : public PlainMesh {
         return PlainMesh::is_collapse_ok(edge) &&
                work_.may_collapse(index(from_vertex_handle(edge)), index(to_vertex_handle(edge)));
     }
+    // In place of the mesh's own: OpenMesh asks for the corners of all triangles in one go before it begins.
+    const Point& point(OpenMesh::VertexHandle v) {
+        steps_.add(1);
+        return PlainMesh::point(v);
+    }
     // The collapse that OpenMesh does now, in our mesh.
     void follow(OpenMesh::VertexHandle removed, OpenMesh::VertexHandle kept) {
         [[maybe_unused]] const bool done = work_.try_collapse(index(removed), index(kept)).has_value();
