@@ -2,12 +2,14 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include "bench/openmesh/decimate.h"
 #include "bench/papers/measure.h"
 #include "bench/papers/models.h"
 #include "bench/papers/tables.h"
+#include "tests/heap/heap_use.h"
 
 namespace coppice::papers {
 namespace {
@@ -73,22 +75,32 @@ void print_speed() {
     }
 }
 
-// time ~ triangles^exponent, between the smallest and the largest.
+// time ~ triangles^exponent, between the smallest and the largest. Memory is what is allocated beside the
+// mesh at the peak, the result included.
 void print_growth() {
     const std::vector<uint32_t> sizes = {10'000, 100'000, 1'000'000, 4'000'000};
     std::vector<Mesh> meshes;
     for (const uint32_t size : sizes) meshes.push_back(drawn_model(size).mesh);
     fmt::print(
-        "\n### Growth\n\nms of processor time to 50 %, one run.\n\n| algorithm | 10 k | 100 k | 1 M | 4 M | "
-        "exponent |\n|---|---:|---:|---:|---:|---:|\n");
+        "\n### Growth\n\nms of processor time to 50 %, one run; bytes beside the mesh at the peak, for each "
+        "triangle "
+        "of the largest.\n\n| algorithm | 10 k | 100 k | 1 M | 4 M | exponent | bytes a triangle | declared "
+        "|\n|---|---:|---:|---:|---:|---:|---:|---:|\n");
     for (const Algorithm& algorithm : algorithms()) {
-        std::vector<double> times;
-        for (const Mesh& mesh : meshes)
+        std::vector<double> times, bytes;
+        for (const Mesh& mesh : meshes) {
+            const test::HeapUse heap;
             times.push_back(cpu_milliseconds([&] { simplify(algorithm, mesh, mesh.triangle_count() / 2); }));
+            bytes.push_back(static_cast<double>(heap.peak_bytes()) /
+                            static_cast<double>(mesh.triangle_count()));
+        }
         const double grown = static_cast<double>(meshes.back().triangle_count()) /
                              static_cast<double>(meshes.front().triangle_count());
-        fmt::print("| {} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.2f} |\n", algorithm.id, times[0], times[1],
-                   times[2], times[3], std::log(times.back() / times.front()) / std::log(grown));
+        fmt::print("| {} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.2f} | {:.0f} | {} |\n", algorithm.id,
+                   times[0], times[1], times[2], times[3],
+                   std::log(times.back() / times.front()) / std::log(grown), bytes.back(),
+                   algorithm.bytes_per_triangle);
+        std::fflush(stdout);
     }
 }
 

@@ -65,7 +65,8 @@ struct Algorithm {
     std::span<const Parameter> parameters;
     bool instance_aware = false;  // the instances of a mesh weigh in what is kept of it
     bool keeps_values = false;    // positions and attributes of the result are some of the mesh's, untouched
-    uint32_t bytes_per_triangle = 400;           // at most this much memory, beside the mesh and its result
+    // At most this much memory beside the mesh, its result included, with normals and texture coordinates.
+    uint32_t bytes_per_triangle = 400;
     double bounds_tolerance_of_diagonal = 0.01;  // how far each side of the box may move
 
     // instances: world transforms of the mesh's instances (may be empty), for weights. Deterministic. Reports

@@ -48,7 +48,8 @@ class AngleStage final : public ClusterStage {
     double usual_threshold() const override { return 180 - default_angle; }
     double largest_threshold() const override { return 180; }
 
-    double count(double threshold) override {
+    double count(double threshold, const Watch& watch) override {
+        watch_ = &watch;
         double left = live_triangles();
         for_each_flat(threshold, [&](uint32_t vertex) {
             left -= work_.triangles_saved(vertex);

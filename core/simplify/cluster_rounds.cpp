@@ -35,7 +35,7 @@ RoundsDone run_rounds(ClusterStage& stage, const Target& target, const RoundOpti
             const double usual = std::min(most, (patient ? widened : 1) * stage.usual_threshold());
             const auto count = [&](double t) {
                 watch.check();
-                return t > 0 ? stage.count(t) : before;
+                return t > 0 ? stage.count(t, watch) : before;
             };
             ThresholdSearch search = {
                 .most = usual, .target = std::max(0.0, before - saving), .tolerance = 0.01};
@@ -46,7 +46,7 @@ RoundsDone run_rounds(ClusterStage& stage, const Target& target, const RoundOpti
             }
             threshold = found.reached || last || patient ? found.threshold
                                                          : std::min(most, widened * stage.usual_threshold());
-            promised = before - (threshold == found.threshold ? found.count : stage.count(threshold));
+            promised = before - (threshold == found.threshold ? found.count : stage.count(threshold, watch));
         }
         stage.run(threshold, watch);
         watch.report(stage.fraction());

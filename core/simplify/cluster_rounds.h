@@ -26,7 +26,7 @@ class ClusterStage {
     virtual double usual_threshold() const = 0;    // lets most sets of the round through
     virtual double largest_threshold() const = 0;  // lets all of them through
     // What a round at that threshold would leave, if nothing was refused. Changes nothing.
-    virtual double count(double threshold) = 0;
+    virtual double count(double threshold, const Watch& watch) = 0;
     virtual void run(double threshold, const Watch& watch) = 0;
     virtual StopReason reason_for_refusals() const = 0;
 };

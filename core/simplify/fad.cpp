@@ -49,6 +49,7 @@ Algorithm fad() {
             .citation = li_kim_2020,
             .parameters = parameters(),
             .keeps_values = true,
+            .bytes_per_triangle = 200,
             .simplify = simplify};
 }
 

@@ -62,6 +62,7 @@ Algorithm fass() {
                 "ball merge",
             .citation = li_kim_2020,
             .parameters = parameters(),
+            .bytes_per_triangle = 220,
             .simplify = simplify};
 }
 

@@ -13,7 +13,7 @@
 // is wound it knows from what the first left. With neighborhood=euclidean the second stage is unguarded, as
 // printed. The estimates of the error add up.
 //
-// Complexity: O(F log F) time, about 250 bytes per triangle.
+// Complexity: O(F log F) time, about 200 bytes per triangle.
 #pragma once
 
 #include "core/simplify/algorithm.h"

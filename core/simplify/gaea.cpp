@@ -198,6 +198,7 @@ Algorithm gaea() {
                 "Visualisation 2006",
             .parameters = parameters(),
             .keeps_values = true,
+            .bytes_per_triangle = 280,
             .simplify = simplify};
 }
 

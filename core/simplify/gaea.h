@@ -28,7 +28,7 @@
 //   - remesh=triangulate is one of the "other polygon triangulation algorithms" that it allows: Delaunay
 //     flips inside patches between collapses.
 //
-// Complexity: O(F log F) time for F triangles, about 230 bytes per triangle.
+// Complexity: O(F log F) time for F triangles, about 250 bytes per triangle.
 #pragma once
 
 #include "core/simplify/algorithm.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/watched_loop.h"
 #include "core/simplify/delaunay_flips.h"
 
 namespace coppice {
@@ -26,9 +27,11 @@ class GuardedStage final : public ClusterStage {
     double usual_threshold() const override { return rule_.usual_threshold(); }
     double largest_threshold() const override { return rule_.largest_threshold(); }
 
-    double count(double threshold) override {
+    double count(double threshold, const Watch& watch) override {
         double left = live_triangles();
+        WatchedSteps steps(watch);
         rule_.offer(threshold, [&](std::span<const uint32_t> vertices) {
+            steps.add(1);
             if (!work_.kinds_allow(vertices)) return size_t{0};
             left -= work_.triangles_saved(vertices);
             return vertices.size();

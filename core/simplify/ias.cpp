@@ -200,6 +200,7 @@ Algorithm ias() {
                 "meshes. IEEE ICME 2015",
             .parameters = parameters(),
             .instance_aware = true,
+            .bytes_per_triangle = 320,
             .simplify_scene = simplify_scene};
 }
 

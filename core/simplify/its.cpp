@@ -86,6 +86,7 @@ Algorithm its() {
             .parameters = parameters(),
             .instance_aware = true,
             .keeps_values = true,
+            .bytes_per_triangle = 320,
             .simplify = simplify};
 }
 

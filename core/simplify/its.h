@@ -15,7 +15,7 @@
 // wedge_map.h) within 5 % of the mesh's diagonal (line_guard.h), the bounding box shrinks by less than 1 % of
 // it on each side. The reported error is an estimate (deviation.h), not a bound.
 //
-// Complexity: O(F log F) time for F triangles of bounded valence, about 400 bytes per triangle with normals
+// Complexity: O(F log F) time for F triangles of bounded valence, about 300 bytes per triangle with normals
 // and UVs. Vertices of more than 128 triangles stay.
 //
 // Departures from the paper, and why. In both modes:

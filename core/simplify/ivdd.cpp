@@ -51,6 +51,7 @@ Algorithm ivdd() {
             .title = "Intervertex distance dependence: near vertices of triangles merge",
             .citation = li_kim_2020,
             .parameters = parameters(),
+            .bytes_per_triangle = 220,
             .simplify = simplify};
 }
 

@@ -5,7 +5,7 @@
 // least, on its half-edge mesh. What else must hold of the result, and what happens to attributes, is decided
 // by the rules that all our algorithms have (edge_collapse.h).
 //
-// Guarantees: those of quadric with placement=endpoint. Complexity: O(F log F), about 400 bytes per triangle.
+// Guarantees: those of quadric with placement=endpoint. Complexity: O(F log F), about 350 bytes per triangle.
 //
 // What a half-edge mesh cannot hold (edges with more than two triangles, or two that run along them in the
 // same direction, and vertices where several fans meet) stays as it is.

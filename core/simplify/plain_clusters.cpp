@@ -49,7 +49,10 @@ class PlainStage final : public ClusterStage {
     }
     double usual_threshold() const override { return 2 * mean_edge_; }
     double largest_threshold() const override { return diagonal_; }
-    double count(double threshold) override { return count(threshold, no_limit); }
+    double count(double threshold, const Watch& watch) override {
+        watch.check();
+        return count(threshold, no_limit);
+    }
 
     // Where the count jumps past the target, it stops half-way through the pass.
     void run(double threshold, const Watch& watch) override {

@@ -131,6 +131,7 @@ Algorithm ss() {
             .title = "Spherical scanning: vertices within a ball merge",
             .citation = li_kim_2020,
             .parameters = parameters(),
+            .bytes_per_triangle = 260,
             .simplify = simplify};
 }
 

@@ -62,6 +62,7 @@ Algorithm surface_angle() {
                 "surface angle. International Journal of Engineering Research and Technology 12, 2019",
             .parameters = parameters(),
             .keeps_values = true,
+            .bytes_per_triangle = 200,
             .simplify = simplify};
 }
 

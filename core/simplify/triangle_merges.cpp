@@ -44,7 +44,7 @@ class TriangleRule final : public ClusterRule {
             triangles_.push_back(x);
         });
         mean_longest_ = triangles_.empty() ? 0 : sum / static_cast<double>(triangles_.size());
-        sort_by_length();
+        sort_by_length(watch);
     }
 
     double usual_threshold() const override { return 1.5 * mean_longest_; }
@@ -79,7 +79,7 @@ class TriangleRule final : public ClusterRule {
 
     // Only about, by an eighth of the mean: in the order of the mesh among about equals, where neighbours are
     // near each other in memory.
-    void sort_by_length() {
+    void sort_by_length(const Watch& watch) {
         constexpr size_t buckets = 32;
         const auto bucket = [this](const Triangle& t) {
             return mean_longest_ > 0 ? static_cast<size_t>(std::min(8 * double{t.longest} / mean_longest_,
@@ -87,10 +87,11 @@ class TriangleRule final : public ClusterRule {
                                      : 0;
         };
         std::array<size_t, buckets + 1> begin{};
-        for (const Triangle& t : triangles_) ++begin[bucket(t) + 1];
+        watched_loop(triangles_.size(), watch, [&](size_t i) { ++begin[bucket(triangles_[i]) + 1]; });
         std::partial_sum(begin.begin(), begin.end(), begin.begin());
-        std::vector<Triangle> sorted(triangles_.size());
-        for (const Triangle& t : triangles_) sorted[begin[bucket(t)]++] = t;
+        std::vector<Triangle> sorted = watched_vector<Triangle>(triangles_.size(), watch);
+        watched_loop(triangles_.size(), watch,
+                     [&](size_t i) { sorted[begin[bucket(triangles_[i])]++] = triangles_[i]; });
         triangles_ = std::move(sorted);
     }
 

@@ -41,6 +41,7 @@ Algorithm vt() {
             .title = "Vertex triplex: triangles merge at their circumcentres",
             .citation = li_kim_2020,
             .parameters = parameters(),
+            .bytes_per_triangle = 220,
             .simplify = simplify};
 }
 

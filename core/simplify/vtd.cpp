@@ -69,6 +69,7 @@ Algorithm vtd() {
             .title = "Vertex triplex distance: small triangles and short edges merge",
             .citation = li_kim_2020,
             .parameters = parameters(),
+            .bytes_per_triangle = 220,
             .simplify = simplify};
 }
 

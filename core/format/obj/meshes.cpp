@@ -1,9 +1,12 @@
 #include "core/format/obj/meshes.h"
 
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <unordered_map>
 
+#include "core/base/watched_loop.h"
+#include "core/base/watched_sort.h"
 #include "core/format/normals.h"
 #include "core/format/triangulate.h"
 #include "core/mesh/weld.h"
@@ -40,6 +43,7 @@ class MeshBuilder {
     }
 
     Mesh finish(WarningTally& tally, const Watch& watch) {
+        number_as_in_file(watch);
         add_attributes();
         for (const uint32_t position : used_) vertex_of_[position] = obj_none;
         repair_normals(mesh_, tally);
@@ -126,6 +130,18 @@ class MeshBuilder {
         next_wedge_.push_back(is_crowded ? obj_none : first_wedge_[vertex]);
         if (!is_crowded) first_wedge_[vertex] = wedge;
         return wedge;
+    }
+
+    // Vertices have the numbers of their first use so far: now those of the file, without what is not used.
+    void number_as_in_file(const Watch& watch) {
+        watched_sort(used_.begin(), used_.end(), watch, std::less<>());
+        std::vector<uint32_t> number = watched_vector<uint32_t>(used_.size(), watch);
+        watched_loop(used_.size(), watch, [&](size_t i) {
+            number[vertex_of_[used_[i]]] = static_cast<uint32_t>(i);
+            mesh_.positions[i] = file_.positions[used_[i]];
+        });
+        watched_loop(mesh_.wedge_count(), watch,
+                     [&](size_t w) { mesh_.wedge_vertex[w] = number[mesh_.wedge_vertex[w]]; });
     }
 
     void add_attributes() {

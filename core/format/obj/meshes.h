@@ -16,9 +16,9 @@ struct ObjMeshes {
     std::vector<std::optional<uint32_t>> mesh_of_object;  // none where an object is empty
 };
 
-// Positions are welded, wedges are the combinations of v, vt and vn, polygons triangulated. Slots are by
-// material and by whether faces have texture coordinates and normals. MaterialSlot::material indexes
-// file.materials.
+// Positions are welded and keep the file's order, without those that no face uses; wedges are the
+// combinations of v, vt and vn, polygons triangulated. Slots are by material and by whether faces have
+// texture coordinates and normals. MaterialSlot::material indexes file.materials.
 ObjMeshes build_meshes(const ObjFile& file, const Watch& watch, std::vector<Warning>& warnings);
 
 }  // namespace coppice

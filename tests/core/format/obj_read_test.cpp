@@ -86,6 +86,22 @@ TEST(ObjRead, takes_vertices_that_stand_after_their_faces) {
     EXPECT_EQ(read("f 1 2 3\n" + square).meshes[0].triangle_count(), 1U);
 }
 
+// Some algorithms go through the vertices by their numbers, and papers count what such a walk leaves.
+TEST(ObjRead, numbers_the_vertices_that_an_object_uses_as_the_file_does) {
+    const Scene scene = read(square + "o first\nf 4 2 3\no second\nf 3 4 1\n");
+    const Mesh &first = scene.meshes[0], &second = scene.meshes[1];
+    EXPECT_THAT(first.positions, ElementsAre(Vec3f{1, 0, 0}, Vec3f{1, 1, 0}, Vec3f{0, 1, 0}));
+    EXPECT_EQ(first.corner_position(0, 0), (Vec3d{0, 1, 0}));
+    EXPECT_EQ(first.corner_position(0, 1), (Vec3d{1, 0, 0}));
+    EXPECT_THAT(second.positions, ElementsAre(Vec3f{0, 0, 0}, Vec3f{1, 1, 0}, Vec3f{0, 1, 0}));
+    EXPECT_EQ(second.corner_position(0, 2), (Vec3d{0, 0, 0}));
+}
+
+TEST(ObjRead, gives_equal_vertices_the_number_of_the_first) {
+    const Scene scene = read("v 1 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 0\nf 4 3 1\nf 1 2 3\n");
+    EXPECT_THAT(scene.meshes[0].positions, ElementsAre(Vec3f{1, 1, 0}, Vec3f{0, 0, 0}, Vec3f{1, 0, 0}));
+}
+
 TEST(ObjRead, flips_texture_coordinates_as_gltf_wants_them) {
     const Scene scene = read(square + "vt 0.25 0.75\nf 1/1 2/1 3/1\n");
     EXPECT_THAT(scene.meshes[0].find_attribute("TEXCOORD_0")->values,

@@ -13,6 +13,7 @@
 #include "core/mesh/adjacency.h"
 #include "core/sample/sample.h"
 #include "core/simplify/registry.h"
+#include "tests/core/simplify/variants.h"
 #include "tests/support/properties.h"
 #include "tests/support/shapes.h"
 
@@ -46,66 +47,6 @@ const std::vector<NamedMesh>& drawn() {
         {"skinned_strip", shapes::skinned_strip()},
     };
     return list;
-}
-
-// An algorithm with values for some of its parameters.
-struct Variant {
-    std::string algorithm;
-    std::map<std::string, ParameterValue> parameters = {};
-};
-
-std::ostream& operator<<(std::ostream& out, const Variant& v) {
-    out << v.algorithm;
-    for (const auto& [id, value] : v.parameters) out << ' ' << id << '=' << std::get<std::string>(value);
-    return out;
-}
-
-// Parameters whose values are ways to work.
-bool is_mode(const Parameter& p) {
-    return p.id == "mode" || p.id == "stitch" || p.id == "borders" || p.id == "quality";
-}
-
-// Every algorithm as it is by default, and with other modes that guard the surface too.
-std::vector<Variant> variants() {
-    std::vector<Variant> list;
-    for (const Algorithm& a : algorithms()) {
-        list.push_back({std::string(a.id)});
-        for (const Parameter& p : a.parameters) {
-            if (!is_mode(p)) continue;
-            for (const std::string_view mode : p.choices) {
-                if (ParameterValue(std::string(mode)) == *p.default_value || mode == p.unguarded_choice)
-                    continue;
-                list.push_back({std::string(a.id), {{std::string(p.id), std::string(mode)}}});
-            }
-        }
-    }
-    return list;
-}
-
-// Those that run as their papers print them: they may fold and close the surface, but nothing else.
-std::vector<Variant> unguarded_variants() {
-    std::vector<Variant> list;
-    for (const Algorithm& a : algorithms()) {
-        for (const Parameter& p : a.parameters) {
-            if (p.unguarded_choice.empty()) continue;
-            list.push_back({std::string(a.id), {{std::string(p.id), std::string(p.unguarded_choice)}}});
-        }
-    }
-    return list;
-}
-
-Simplified simplify(const Variant& variant, const Mesh& mesh, const Target& target, const Watch& watch = {}) {
-    const Algorithm& a = find_algorithm(variant.algorithm);
-    const ParameterValues values = ParameterValues::parse(a.parameters, variant.parameters);
-    if (a.simplify_scene == nullptr) return a.simplify(mesh, {}, target, values, watch);
-    const std::vector<std::vector<Transform>> one_instance = {{Transform{}}};
-    const SceneTarget scene = {.triangles = target.triangles, .of_mesh = {target}};
-    return a.simplify_scene(std::span(&mesh, 1), one_instance, scene, values, watch).meshes.front();
-}
-
-Target part_of(const Mesh& mesh, double ratio) {
-    return {.triangles =
-                static_cast<uint64_t>(std::floor(ratio * static_cast<double>(mesh.triangle_count())))};
 }
 
 // Degenerate triangles of the original may stay.
@@ -175,9 +116,9 @@ void expect_box(const Algorithm& algorithm, const Mesh& before, const Mesh& afte
 
 constexpr double line_tolerance = 0.05;  // of the diagonal, whatever the ratio
 
-class EveryAlgorithm : public testing::TestWithParam<std::tuple<Variant, size_t>> {
+class EveryAlgorithm : public testing::TestWithParam<std::tuple<test::Variant, size_t>> {
   protected:
-    const Variant& variant() const { return std::get<0>(GetParam()); }
+    const test::Variant& variant() const { return std::get<0>(GetParam()); }
     const Mesh& mesh() const { return drawn()[std::get<1>(GetParam())].mesh; }
     const char* shape() const { return drawn()[std::get<1>(GetParam())].name; }
 
@@ -185,7 +126,7 @@ class EveryAlgorithm : public testing::TestWithParam<std::tuple<Variant, size_t>
     void at_every_ratio(Check check) {
         for (const double ratio : {0.9, 0.8, 0.5, 0.3, 0.1}) {
             SCOPED_TRACE(testing::Message() << shape() << " at " << ratio);
-            check(ratio, simplify(variant(), mesh(), part_of(mesh(), ratio)));
+            check(ratio, test::simplify(variant(), mesh(), test::part_of(mesh(), ratio)));
         }
     }
 
@@ -262,8 +203,8 @@ TEST_P(EveryAlgorithmOnTextures, keeps_seams) {
 }
 
 TEST_P(EveryAlgorithm, gives_the_same_twice) {
-    const Simplified a = simplify(variant(), mesh(), part_of(mesh(), 0.4));
-    const Simplified b = simplify(variant(), mesh(), part_of(mesh(), 0.4));
+    const Simplified a = test::simplify(variant(), mesh(), test::part_of(mesh(), 0.4));
+    const Simplified b = test::simplify(variant(), mesh(), test::part_of(mesh(), 0.4));
     EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
     EXPECT_EQ(a.mesh.wedge_vertex, b.mesh.wedge_vertex);
     EXPECT_EQ(a.mesh.positions, b.mesh.positions);
@@ -272,8 +213,8 @@ TEST_P(EveryAlgorithm, gives_the_same_twice) {
 
 TEST_P(EveryAlgorithm, reports_progress_that_never_goes_back) {
     std::vector<double> told;
-    simplify(variant(), mesh(), part_of(mesh(), 0.3),
-             {.progress = [&told](double fraction) { told.push_back(fraction); }});
+    test::simplify(variant(), mesh(), test::part_of(mesh(), 0.3),
+                   {.progress = [&told](double fraction) { told.push_back(fraction); }});
     ASSERT_FALSE(told.empty());
     EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
     EXPECT_GE(told.front(), 0);
@@ -284,7 +225,7 @@ TEST_P(EveryAlgorithm, stops_when_it_is_cancelled) {
     std::stop_source stop;
     const Watch watch = {.stop = stop.get_token(), .progress = [&stop](double) { stop.request_stop(); }};
     try {
-        simplify(variant(), mesh(), part_of(mesh(), 0.1), watch);
+        test::simplify(variant(), mesh(), test::part_of(mesh(), 0.1), watch);
         FAIL() << "went on";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::job_cancelled);
@@ -292,7 +233,7 @@ TEST_P(EveryAlgorithm, stops_when_it_is_cancelled) {
 }
 
 TEST_P(EveryAlgorithm, leaves_alone_what_is_small_enough) {
-    const Simplified s = simplify(variant(), mesh(), {.triangles = mesh().triangle_count()});
+    const Simplified s = test::simplify(variant(), mesh(), {.triangles = mesh().triangle_count()});
     EXPECT_EQ(s.stop_reason, StopReason::already_smaller);
     EXPECT_EQ(s.mesh.triangles, mesh().triangles);
     EXPECT_EQ(s.error_model_units, 0);
@@ -307,18 +248,10 @@ std::vector<size_t> shapes_that(Rule rule) {
     return indices;
 }
 
-const auto every_variant = testing::ValuesIn(variants());
+const auto every_variant = testing::ValuesIn(test::variants());
 
-std::string test_name(const Variant& variant, const std::string& shape) {
-    std::string name = variant.algorithm;
-    for (const auto& [id, value] : variant.parameters) name += "_" + id + "_" + std::get<std::string>(value);
-    name += "_" + shape;
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-}
-
-std::string variant_and_shape(const testing::TestParamInfo<std::tuple<Variant, size_t>>& tested) {
-    return test_name(std::get<0>(tested.param), drawn()[std::get<1>(tested.param)].name);
+std::string variant_and_shape(const testing::TestParamInfo<std::tuple<test::Variant, size_t>>& tested) {
+    return test::test_name(std::get<0>(tested.param), drawn()[std::get<1>(tested.param)].name);
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryAlgorithm,
@@ -340,7 +273,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryAlgorithmOnTextures,
                          variant_and_shape);
 
 // All of it at once on the procedural scenes, which have materials, seams, open borders and flat walls.
-class EverySample : public testing::TestWithParam<std::tuple<Variant, std::string>> {};
+class EverySample : public testing::TestWithParam<std::tuple<test::Variant, std::string>> {};
 
 TEST_P(EverySample, keeps_what_shapes_keep) {
     const auto& [variant, sample] = GetParam();
@@ -348,7 +281,7 @@ TEST_P(EverySample, keeps_what_shapes_keep) {
         for (const double ratio : {0.9, 0.5, 0.1}) {
             SCOPED_TRACE(testing::Message() << sample << ' ' << mesh.name << ", " << mesh.triangle_count()
                                             << " triangles, at " << ratio);
-            const Simplified s = simplify(variant, mesh, part_of(mesh, ratio));
+            const Simplified s = test::simplify(variant, mesh, test::part_of(mesh, ratio));
             EXPECT_TRUE(is_consistent(s.mesh));
             expect_target(mesh, ratio, s);
             EXPECT_TRUE(test::has_no_new_non_manifold_edge(mesh, s.mesh));
@@ -367,10 +300,10 @@ TEST_P(EverySample, keeps_what_shapes_keep) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EverySample,
-                         testing::Combine(testing::ValuesIn(variants()),
+                         testing::Combine(testing::ValuesIn(test::variants()),
                                           testing::Values("forest", "city", "bunny13", "baked", "cad")),
-                         [](const testing::TestParamInfo<std::tuple<Variant, std::string>>& tested) {
-                             return test_name(std::get<0>(tested.param), std::get<1>(tested.param));
+                         [](const testing::TestParamInfo<std::tuple<test::Variant, std::string>>& tested) {
+                             return test::test_name(std::get<0>(tested.param), std::get<1>(tested.param));
                          });
 
 class EveryUnguardedMode : public EveryAlgorithm {};
@@ -393,14 +326,14 @@ TEST_P(EveryUnguardedMode, meets_the_target_or_says_why_not) {
 }
 
 TEST_P(EveryUnguardedMode, gives_the_same_twice) {
-    const Simplified a = simplify(variant(), mesh(), part_of(mesh(), 0.4));
-    const Simplified b = simplify(variant(), mesh(), part_of(mesh(), 0.4));
+    const Simplified a = test::simplify(variant(), mesh(), test::part_of(mesh(), 0.4));
+    const Simplified b = test::simplify(variant(), mesh(), test::part_of(mesh(), 0.4));
     EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
     EXPECT_EQ(a.mesh.positions, b.mesh.positions);
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryUnguardedMode,
-                         testing::Combine(testing::ValuesIn(unguarded_variants()),
+                         testing::Combine(testing::ValuesIn(test::unguarded_variants()),
                                           testing::Range(size_t{0}, drawn().size())),
                          variant_and_shape);
 
