@@ -7,7 +7,7 @@ namespace coppice {
 
 template <typename T>
 struct Vec3 {
-    T x = 0, y = 0, z = 0;
+    T x = {}, y = {}, z = {};
 
     friend bool operator==(const Vec3&, const Vec3&) = default;
     friend Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }

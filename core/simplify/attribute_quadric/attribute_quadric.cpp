@@ -44,11 +44,12 @@ std::span<const Parameter> parameters() {
 }
 
 // What passes have left, edge by edge.
-Simplified finish(const Mesh& mesh, const Target& target, double error, const Watch& watch) {
+Simplified finish(const Mesh& mesh, const Target& target, double error, bool lock_borders,
+                  const Watch& watch) {
     Target rest = target;
     if (rest.error_model_units) *rest.error_model_units = std::max(0.0, *rest.error_model_units - error);
     EdgeCollapse work(
-        mesh, rest, {.guards = {.tolerance = 1 - packed_tolerance}},
+        mesh, rest, {.guards = {.lock_borders = lock_borders, .tolerance = 1 - packed_tolerance}},
         [&](const CollapseParts& parts) { return std::make_unique<GapsError>(parts, PlaneOptions{}, watch); },
         watch);
     CheapestFirst(work, watch).run();
@@ -76,7 +77,8 @@ Simplified simplify(const Mesh& source, std::span<const Transform> instances, co
                   .stop_reason = work.is_met(target) ? StopReason::target : StopReason::error_limit};
     }
     if (result.stop_reason != StopReason::target)
-        result = finish(result.mesh, target, result.error_model_units, watch.part(0.9, 1));
+        result =
+            finish(result.mesh, target, result.error_model_units, options.lock_borders, watch.part(0.9, 1));
     watch.report(1.0);
     return result;
 }

@@ -10,20 +10,19 @@
 #include "core/base/watched_loop.h"
 #include "core/mesh/weld.h"
 #include "core/simplify/bounds_guard.h"
+#include "core/simplify/deviation.h"
 #include "core/simplify/line_guard.h"
 
 namespace coppice {
 
 namespace {
 
-// Of the planes' weight. Enough to keep flat regions well shaped, too little to be seen elsewhere.
-constexpr float stiffness = 1e-4F;
 constexpr double border_weight = 10, seam_weight = 1;  // of the plane across a line, times its edge squared
 constexpr float least_cosine_at_once = 0.25F, least_cosine_to_facing = 0.25F;
 constexpr float degenerate_aspect = 1e-6F;  // as in collapse_rules.cpp
 constexpr float no_cost = -1;
 // A pass takes nothing that costs more than this times what the last edge would that it needs.
-constexpr float patience = 1.5F;
+constexpr float usual_patience = 1.5F;
 constexpr auto box_tolerance = static_cast<float>(packed_tolerance * bounds_tolerance_of_diagonal);
 constexpr auto line_tolerance = static_cast<float>(packed_tolerance * line_tolerance_of_diagonal);
 
@@ -32,19 +31,30 @@ bool is_degenerate(Vec3f a, Vec3f b, Vec3f c, Vec3f normal) {
     return squared_length(normal) <= degenerate_aspect * degenerate_aspect * longest * longest;
 }
 
+// One corner of a triangle, and the sum of where the surface faced at all three.
+struct Tip {
+    Vec3f at, facing;
+};
+
+// Whether a triangle may have its corner elsewhere.
+bool may_turn(const Tip& before, const Tip& after, Vec3f ahead, Vec3f behind) {
+    const Vec3f old_normal = area_normal(before.at, ahead, behind),
+                normal = area_normal(after.at, ahead, behind);
+    const bool was_degenerate = is_degenerate(before.at, ahead, behind, old_normal);
+    if (is_degenerate(after.at, ahead, behind, normal)) return was_degenerate;
+    const float size = length(normal), old_size = length(old_normal);
+    if (!was_degenerate && dot(normal, old_normal) < least_cosine_at_once * size * old_size) return false;
+    const float agreement = dot(after.facing, normal);
+    if (agreement >= 3 * least_cosine_to_facing * size) return true;
+    // Where it faced away before, it may as long as that is no worse.
+    return !was_degenerate && agreement * old_size >= dot(before.facing, old_normal) * size;
+}
+
 float distance_to_segment(Vec3f p, Vec3f a, Vec3f b) {
     const Vec3f edge = b - a;
     const float squared = squared_length(edge);
     const float along = squared > 0 ? std::clamp(dot(p - a, edge) / squared, 0.0F, 1.0F) : 0.0F;
     return length(p - (a + edge * along));
-}
-
-bool has_other_values(const Mesh& mesh) {
-    const auto has_quadric = [](const Attribute& a) {
-        return a.name == "NORMAL" || a.name.starts_with("TEXCOORD_") || a.name.starts_with("COLOR_");
-    };
-    return !mesh.morph_targets.empty() ||
-           !std::all_of(mesh.attributes.begin(), mesh.attributes.end(), has_quadric);
 }
 
 }  // namespace
@@ -56,7 +66,7 @@ PackedCollapse::PackedCollapse(const Mesh& source, const PackedOptions& options,
       attributes_(mesh_, source, options.weights, watch),
       first_wedges_(mesh_.wedge_source),
       values_(source, first_wedges_),
-      blends_values_(has_other_values(source)) {
+      blends_values_(!source.morph_targets.empty() || !attributes_.holds_all_of(source)) {
     wedge_origin_.resize(mesh_.wedge_count());
     std::iota(wedge_origin_.begin(), wedge_origin_.end(), 0U);
     away_.resize(mesh_.vertex_count());
@@ -69,10 +79,28 @@ PackedCollapse::PackedCollapse(const Mesh& source, const PackedOptions& options,
     add_lines(watch);
 }
 
+// What all triangles weigh alike for instances is none of their weight beside borders and attributes. 0: they
+// have none.
+double PackedCollapse::mean_instance_weight(const Watch& watch) const {
+    if (!options_.instance_weight) return 0;
+    double sum = 0, areas = 0;
+    watched_loop(mesh_.triangle_count(), watch, [&](size_t t) {
+        const uint32_t* v = &mesh_.triangles[3 * t];
+        const Vec3d area =
+            to_double(area_normal(mesh_.positions[v[0]], mesh_.positions[v[1]], mesh_.positions[v[2]]));
+        const double size = length(area);
+        if (!(size > 0)) return;
+        sum += size * options_.instance_weight(area * (1 / size));
+        areas += size;
+    });
+    return areas > 0 ? sum / areas : 0;
+}
+
 // A triangle's plane passes through its corners, so about each of them it has no offset.
 void PackedCollapse::add_planes(const Watch& watch) {
     watched_resize(planes_, mesh_.vertex_count(), watch);
     watched_resize(facing_, mesh_.vertex_count(), watch);
+    const double usual = mean_instance_weight(watch);
     watched_loop(mesh_.triangle_count(), watch, [&](size_t t) {
         const uint32_t* v = &mesh_.triangles[3 * t];
         const Vec3f area = area_normal(mesh_.positions[v[0]], mesh_.positions[v[1]], mesh_.positions[v[2]]);
@@ -80,7 +108,7 @@ void PackedCollapse::add_planes(const Watch& watch) {
         if (!(size > 0)) return;
         const Vec3f n = area * (1 / size);
         float weight = size / 6;
-        if (options_.instance_weight) weight *= static_cast<float>(options_.instance_weight(to_double(n)));
+        if (usual > 0) weight *= static_cast<float>(options_.instance_weight(to_double(n)) / usual);
         CentredQuadric q;
         q.add_square(n, weight);
         q.weight = weight;
@@ -96,7 +124,7 @@ void PackedCollapse::add_planes(const Watch& watch) {
 void PackedCollapse::add_lines(const Watch& watch) {
     watched_loop(mesh_.vertex_count(), watch, [&](size_t i) {
         const auto v = static_cast<uint32_t>(i);
-        if (mesh_.kinds[v] == VertexKind::manifold) return;
+        if (mesh_.kinds[v] == VertexKind::manifold || mesh_.is_hub(v)) return;
         for (uint32_t s = mesh_.first_spoke[v]; s < mesh_.first_spoke[v + 1]; ++s) {
             const auto [next, previous] = mesh_.spokes[s];
             if (mesh_.kinds[next] == VertexKind::manifold) continue;
@@ -120,12 +148,17 @@ std::optional<PackedCollapse::Merge> PackedCollapse::merge_along(uint32_t from) 
     const uint32_t to = from % 3 == 2 ? from - 2 : from + 1;
     const uint32_t vertex = mesh_.triangles[from], next = mesh_.triangles[to];
     const VertexKind a = mesh_.kinds[vertex], b = mesh_.kinds[next];
+    if (a != manifold && b != manifold) return line_merge(from, to);
+    if (next < vertex || a == complex || b == complex) return {};
+    if (a == b) return Merge{next, vertex, true};
+    return a == manifold ? Merge{vertex, next, false} : Merge{next, vertex, false};
+}
+
+std::optional<PackedCollapse::Merge> PackedCollapse::line_merge(uint32_t from, uint32_t to) const {
+    using enum VertexKind;
+    const uint32_t vertex = mesh_.triangles[from], next = mesh_.triangles[to];
+    const VertexKind a = mesh_.kinds[vertex], b = mesh_.kinds[next];
     if (a == complex || b == complex) return {};
-    if (a == manifold || b == manifold) {
-        if (next < vertex) return {};
-        if (a == b) return Merge{next, vertex, true};
-        return a == manifold ? Merge{vertex, next, false} : Merge{next, vertex, false};
-    }
     const std::optional<uint32_t> twin = mesh_.against(vertex, next);
     VertexKind line = border;
     if (twin) {
@@ -136,7 +169,7 @@ std::optional<PackedCollapse::Merge> PackedCollapse::merge_along(uint32_t from) 
     }
     if (a == line && b == line) return Merge{next, vertex, true};
     if (a == line && b == corner) return Merge{vertex, next, false};
-    if (a == VertexKind::corner && b == line) return Merge{next, vertex, false};
+    if (a == corner && b == line) return Merge{next, vertex, false};
     return {};
 }
 
@@ -164,58 +197,88 @@ CentredQuadric PackedCollapse::planes_of(const Merge& m, Vec3f offset) const {
     return q;
 }
 
-std::optional<Vec3f> PackedCollapse::best_point(const CentredQuadric& q, Vec3f offset,
-                                                const Constraint& keep) const {
-    const Vec3f middle = offset * 0.5F;
-    const std::optional<Vec3f> point = least_point(q, stiffness * q.weight, middle, keep);
-    // Nearly parallel planes meet anywhere.
-    if (!point || squared_length(*point - middle) > 4 * squared_length(offset)) return {};
-    return point;
-}
-
-Vec3f PackedCollapse::best_of_edge(const CentredQuadric& q, Vec3f offset) const {
-    const Vec3f middle = offset * 0.5F;
-    const float at_kept = q({}), at_removed = q(offset), at_middle = q(middle);
-    if (at_middle <= at_kept && at_middle <= at_removed) return middle;
-    return at_kept <= at_removed ? Vec3f{} : offset;
-}
-
 float PackedCollapse::cost(const Merge& m) {
     const Vec3f offset = mesh_.positions[m.removed] - mesh_.positions[m.kept];
     CentredQuadric q = planes_of(m, offset);
+    pair_count_ = 0;
     if (attributes_.any()) find_pairs(m);
     if (!m.moves) {
         float sum = q.c;
-        for (uint32_t i = 0; i < pair_count_; ++i) sum += attributes_.error_with_values_kept(pairs_[i], {});
+        for (uint32_t i = 0; i < pair_count_; ++i) sum += attributes_.error_with_values_kept(pairs_[i]);
         return std::max(0.0F, sum);
     }
     for (uint32_t i = 0; i < pair_count_; ++i) q += attributes_.error(pairs_[i]);
-    const std::optional<Vec3f> point = best_point(q, offset, {});
-    return q(point ? *point : best_of_edge(q, offset));
+    return std::max(0.0F, q(least_point<float>(q, offset, nullptr)));
+}
+
+// The same for edges both of whose ends may move, without attributes, in fours.
+void PackedCollapse::cost_planes(const std::array<uint32_t, lane_count>& corners, uint32_t count) {
+    std::array<CentredQuadric, lane_count> removed, kept;
+    Vec3<Lanes> offset = {};
+    for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t from = corners[i], to = from % 3 == 2 ? from - 2 : from + 1;
+        const uint32_t a = mesh_.triangles[from], b = mesh_.triangles[to];
+        removed[i] = planes_[b], kept[i] = planes_[a];
+        const Vec3f along = mesh_.positions[b] - mesh_.positions[a];
+        offset.x[i] = along.x, offset.y[i] = along.y, offset.z[i] = along.z;
+    }
+    BasicQuadric<Lanes> q = together(removed).seen_from(offset);
+    q += together(kept);
+    const Lanes costs = q(least_point<Lanes>(q, offset, nullptr));
+    for (uint32_t i = 0; i < count; ++i) costs_[corners[i]] = std::max(0.0F, costs[i]);
 }
 
 // What none of whose ends has changed costs what it did.
 void PackedCollapse::rank(const Watch& watch) {
-    order_.clear();
+    std::array<uint32_t, lane_count> waiting{};
+    uint32_t count = 0;
     watched_loop(mesh_.triangle_count(), watch, [&](size_t t) {
         const auto first = static_cast<uint32_t>(3 * t);
-        for (uint32_t corner = first; corner < first + 3; ++corner) {
-            const uint32_t ahead = corner == first + 2 ? first : corner + 1;
-            if ((changed_[mesh_.triangles[corner]] | changed_[mesh_.triangles[ahead]]) != 0) {
-                const std::optional<Merge> merge = merge_along(corner);
-                costs_[corner] = merge ? cost(*merge) : no_cost;
+        const std::array<uint8_t, 3> changed = {changed_[mesh_.triangles[first]],
+                                                changed_[mesh_.triangles[first + 1]],
+                                                changed_[mesh_.triangles[first + 2]]};
+        for (uint32_t k = 0; k < 3; ++k) {
+            if ((changed[k] | changed[k == 2 ? 0 : k + 1]) == 0) continue;
+            const std::optional<Merge> merge = merge_along(first + k);
+            if (merge && merge->moves && !attributes_.any()) {
+                waiting[count++] = first + k;
+                if (count == lane_count) cost_planes(waiting, std::exchange(count, 0));
+            } else {
+                costs_[first + k] = merge ? cost(*merge) : no_cost;
             }
-            if (costs_[corner] >= 0) order_.push_back(corner);
         }
     });
-    // By the upper bits of the cost, two digits of 9: what is a quarter of one percent apart is equal.
+    cost_planes(waiting, count);
+}
+
+// About what the edge costs that has so many cheaper ones: a sixteenth too much, at most.
+float PackedCollapse::cost_of(uint64_t place, const Watch& watch) const {
+    constexpr uint32_t digits = 12;
+    std::array<uint32_t, 1U << digits> counts{};
+    watched_loop(costs_.size(), watch, [&](size_t corner) {
+        if (costs_[corner] >= 0) ++counts[std::bit_cast<uint32_t>(costs_[corner]) >> (31 - digits)];
+    });
+    uint64_t sum = 0;
+    uint32_t digit = 0;
+    while (digit + 1 < counts.size() && sum + counts[digit] <= place) sum += counts[digit++];
+    if (sum + counts[digit] <= place) return std::numeric_limits<float>::max();
+    return std::bit_cast<float>(((digit + 1) << (31 - digits)) - 1);
+}
+
+// By the upper bits of the cost, two digits of 9: what is a quarter of one percent apart is equal.
+void PackedCollapse::sort_up_to(float dearest, const Watch& watch) {
+    order_.clear();
+    watched_loop(costs_.size(), watch, [&](size_t corner) {
+        if (costs_[corner] >= 0 && costs_[corner] <= dearest) order_.push_back(static_cast<uint32_t>(corner));
+    });
     const auto key = [this](uint32_t corner) { return std::bit_cast<uint32_t>(costs_[corner]) >> 14; };
     sorted_.resize(order_.size());
     for (const uint32_t shift : {0U, 9U}) {
         std::array<uint32_t, 513> begin{};
-        for (const uint32_t corner : order_) ++begin[(key(corner) >> shift & 511U) + 1];
+        watched_loop(order_.size(), watch, [&](size_t i) { ++begin[(key(order_[i]) >> shift & 511U) + 1]; });
         std::partial_sum(begin.begin(), begin.end(), begin.begin());
-        for (const uint32_t corner : order_) sorted_[begin[key(corner) >> shift & 511U]++] = corner;
+        watched_loop(order_.size(), watch,
+                     [&](size_t i) { sorted_[begin[key(order_[i]) >> shift & 511U]++] = order_[i]; });
         order_.swap(sorted_);
     }
 }
@@ -231,38 +294,48 @@ PackedCollapse::ToGo PackedCollapse::to_go(const Target& target) const {
 }
 
 void PackedCollapse::run(const Target& target, const Watch& watch) {
-    const double limit = target.error_model_units && mesh_.diagonal > 0
-                             ? *target.error_model_units / mesh_.diagonal
-                             : std::numeric_limits<float>::infinity();
+    limits_error_ = target.error_model_units.has_value();
+    error_limit_ = std::numeric_limits<float>::infinity();
+    if (limits_error_) {
+        error_limit_ = static_cast<float>(*target.error_model_units / std::max(mesh_.diagonal, 1e-300));
+        carried_.assign(mesh_.vertex_count(), 0);
+    }
     const double start = mesh_.triangle_count();
+    patience_ = usual_patience;
     while (!is_met(target)) {
-        if (pass(to_go(target), static_cast<float>(limit * limit), watch) == 0) return;
+        const ToGo before = to_go(target);
+        const uint64_t gone = pass(before, watch);
         const auto goal = static_cast<double>(target.triangles.value_or(0));
         watch.report(std::min(1.0, (start - mesh_.triangle_count()) / std::max(1.0, start - goal)));
+        // Where little goes, dearer edges have to; where hardly anything does, it is not worth a pass.
+        const double wanted = static_cast<double>(before.triangles) * options_.share_of_pass;
+        const bool hardly = 1000 * gone <= before.triangles;
+        if (hardly && !std::isfinite(patience_)) return;
+        patience_ = hardly ? std::numeric_limits<float>::infinity()
+                           : (static_cast<double>(gone) < 0.1 * wanted ? 2 * patience_ : usual_patience);
     }
 }
 
-uint64_t PackedCollapse::pass(const ToGo& to_go, float squared_limit, const Watch& watch) {
+uint64_t PackedCollapse::pass(const ToGo& to_go, const Watch& watch) {
     vertex_becomes_.resize(mesh_.vertex_count());
     std::iota(vertex_becomes_.begin(), vertex_becomes_.end(), 0U);
     wedge_becomes_.resize(mesh_.has_wedges() ? mesh_.wedge_count() : 0);
     std::iota(wedge_becomes_.begin(), wedge_becomes_.end(), 0U);
     rank(watch);
-    if (order_.empty()) return 0;
     changed_.assign(mesh_.vertex_count(), 0);
-
     const uint64_t collapses = std::min(to_go.triangles / 2, to_go.vertices);
-    const auto wanted = static_cast<size_t>(static_cast<double>(collapses) * options_.share_of_pass);
-    const float dearest = costs_[order_[std::min(order_.size() - 1, wanted)]] * patience;
+    const double wanted = static_cast<double>(collapses) * options_.share_of_pass;
+    sort_up_to(cost_of(static_cast<uint64_t>(wanted), watch) * patience_, watch);
+
     uint64_t triangles = 0, vertices = 0;
-    size_t step = 0;
+    WatchedSteps steps(watch);
     for (const uint32_t corner : order_) {
+        steps.add(1);
         if (triangles >= to_go.triangles || vertices >= to_go.vertices) break;
-        if (costs_[corner] > dearest && triangles > to_go.triangles / 10) break;
         const Merge merge = *merge_along(corner);
         if (is_taken(merge.removed) || is_taken(merge.kept)) continue;
-        if (++step % 4096 == 0) watch.check();
-        const uint32_t gone = try_collapse(merge, squared_limit);
+        steps.add(size_t{4} * (mesh_.valence(merge.removed) + mesh_.valence(merge.kept)));
+        const uint32_t gone = try_collapse(merge);
         triangles += gone;
         vertices += gone > 0 ? 1 : 0;
     }
@@ -273,38 +346,64 @@ uint64_t PackedCollapse::pass(const ToGo& to_go, float squared_limit, const Watc
 void PackedCollapse::pack(const Watch& watch) {
     const Renumbering numbers =
         mesh_.compact(vertex_becomes_, mesh_.has_wedges() ? wedge_becomes_ : vertex_becomes_, watch);
-    renumber(planes_, numbers.vertices, numbers.vertices_left);
-    renumber(facing_, numbers.vertices, numbers.vertices_left);
-    renumber(away_, numbers.vertices, numbers.vertices_left);
-    renumber(moved_, numbers.vertices, numbers.vertices_left);
-    renumber(wedge_origin_, numbers.wedges, numbers.wedges_left);
-    renumber(changed_, numbers.vertices, numbers.vertices_left);
-    renumber(costs_, numbers.triangles, numbers.triangles_left, 3);
-    attributes_.renumber_wedges(numbers);
+    renumber(planes_, numbers.vertices, numbers.vertices_left, watch);
+    renumber(facing_, numbers.vertices, numbers.vertices_left, watch);
+    if (limits_error_) renumber(carried_, numbers.vertices, numbers.vertices_left, watch);
+    renumber(away_, numbers.vertices, numbers.vertices_left, watch);
+    renumber(moved_, numbers.vertices, numbers.vertices_left, watch);
+    renumber(wedge_origin_, numbers.wedges, numbers.wedges_left, watch);
+    renumber(changed_, numbers.vertices, numbers.vertices_left, watch);
+    renumber(costs_, numbers.triangles, numbers.triangles_left, watch, 3);
+    attributes_.renumber_wedges(numbers, watch);
 }
 
 // Triangles that went; none where a rule is broken.
-uint32_t PackedCollapse::try_collapse(const Merge& m, float squared_limit) {
+uint32_t PackedCollapse::try_collapse(const Merge& m) {
     if (!gather(m.removed, removed_ring_) || !gather(m.kept, kept_ring_)) return 0;
-    if (!has_sound_link(m) || !gather_leaves(m)) return 0;
+    if (!has_sound_link(m)) return 0;
+    volume_ = {};
+    const Vec3f origin = mesh_.positions[m.kept];
+    gather_fan(m.removed, m.kept, origin, removed_ring_, removed_fan_);
+    gather_fan(m.kept, m.removed, origin, kept_ring_, kept_fan_);
+    if (!leaves_none_out(m)) return 0;
     const Vec3f offset = mesh_.positions[m.removed] - mesh_.positions[m.kept];
     const CentredQuadric planes = planes_of(m, offset);
     find_pairs(m);
     const std::optional<Vec3f> at = place(m, planes, offset);
     if (!at) return 0;
-    const float squared_error = planes.weight > 0 ? planes(*at) / planes.weight : 0;
-    if (squared_error > squared_limit) {
-        met_error_limit_ = true;
-        return 0;
-    }
+    const float error = limits_error_       ? distance_after(m, *at)
+                        : planes.weight > 0 ? std::sqrt(std::max(0.0F, planes(*at)) / planes.weight)
+                                            : 0;
+    if (error > error_limit_) return 0;
     if (mesh_.kinds[m.removed] != VertexKind::manifold) {
         const std::optional<float> away = line_away(m, *at);
         if (!away) return 0;
         away_[m.kept] = *away;
     }
-    squared_error_ = std::max(squared_error_, squared_error);
+    largest_error_ = std::max(largest_error_, error);
+    if (limits_error_) carried_[m.kept] = error;
     apply(m, *at, planes, offset);
-    return dying_;
+    return removed_ring_.count - removed_fan_.count;
+}
+
+// As Deviation has it: both ends are measured from the triangles that take the place of theirs, on top of
+// what each has gathered before.
+float PackedCollapse::distance_after(const Merge& m, Vec3f at) const {
+    const Vec3d removed = to_double(removed_fan_.tip), kept = to_double(kept_fan_.tip), tip = to_double(at);
+    double from_removed = length(removed - tip), from_kept = length(kept - tip);
+    for (const Fan* fan : {&removed_fan_, &kept_fan_}) {
+        for (uint32_t i = 0; i < fan->count; ++i) {
+            const Fan::Four& four = fan->fours[i / lane_count];
+            const auto corner = [lane = i % lane_count](const Vec3<Lanes>& v) {
+                return to_double(Vec3f{v.x[lane], v.y[lane], v.z[lane]});
+            };
+            const Vec3d a = corner(four.ahead), b = corner(four.behind);
+            from_removed = std::min(from_removed, distance_to_triangle(removed, tip, a, b));
+            from_kept = std::min(from_kept, distance_to_triangle(kept, tip, a, b));
+        }
+    }
+    return static_cast<float>(
+        std::max(double{carried_[m.removed]} + from_removed, double{carried_[m.kept]} + from_kept));
 }
 
 // Around the inside of a chart each neighbour comes next once; elsewhere some are only previous. False where
@@ -338,6 +437,7 @@ bool PackedCollapse::has_sound_link(const Merge& m) const {
         if (at_edge == 2) return false;
         opposite[at_edge++] = r.next[i] == m.kept ? r.previous[i] : r.next[i];
     }
+    if (at_edge == 2 && opposite[0] == opposite[1]) return false;  // sheets back to back
     uint32_t shared = 0;
     for (uint32_t i = 0; i < r.neighbour_count; ++i) {
         const uint32_t* end = k.neighbours.data() + k.neighbour_count;
@@ -356,50 +456,66 @@ bool PackedCollapse::has_sound_link(const Merge& m) const {
     return !closes(r) || !closes(k);
 }
 
-// False where something would be left without a triangle.
-bool PackedCollapse::gather_leaves(const Merge& m) {
-    leaves_.clear();
-    dying_ = 0;
-    volume_ = {};
-    std::array<uint32_t, 2> opposite = {};
-    const Vec3f origin = mesh_.positions[m.kept];
-    for (const bool of_removed : {true, false}) {
-        const Ring& ring = of_removed ? removed_ring_ : kept_ring_;
-        const uint32_t other = of_removed ? m.kept : m.removed;
-        const Vec3f here = of_removed ? mesh_.positions[m.removed] - origin : Vec3f{};
-        for (uint32_t i = 0; i < ring.count; ++i) {
-            const uint32_t next = ring.next[i], previous = ring.previous[i];
-            const bool dies = next == other || previous == other;
-            if (dies && !of_removed) continue;
-            const Vec3f a = mesh_.positions[next] - origin, b = mesh_.positions[previous] - origin;
-            const Vec3f outer = cross(a, b);
-            volume_.offset += dot(here, outer);
-            if (dies) {
-                opposite[dying_++] = next == other ? previous : next;
-                continue;
-            }
-            volume_.normal = volume_.normal + outer;
-            leaves_.push_back({a, b, cross(a - here, b - here), next, previous, ring.spoke[i], of_removed});
+// And adds to the volume below the surface what is below these triangles, six times; each that goes once.
+void PackedCollapse::gather_fan(uint32_t vertex, uint32_t other, Vec3f origin, const Ring& ring, Fan& fan) {
+    fan.tip = mesh_.positions[vertex] - origin;
+    fan.count = 0;
+    for (uint32_t i = 0; i < ring.count; ++i) {
+        const uint32_t next = ring.next[i], previous = ring.previous[i];
+        const Vec3f a = mesh_.positions[next] - origin, b = mesh_.positions[previous] - origin;
+        if (next == other || previous == other) {
+            volume_.offset += dot(fan.tip, cross(a, b));
+            continue;
         }
+        const Vec3f facing = facing_[next] + facing_[previous];
+        Fan::Four& four = fan.fours[fan.count / lane_count];
+        const uint32_t lane = fan.count % lane_count;
+        if (lane == 0) four = {};
+        four.ahead.x[lane] = a.x, four.ahead.y[lane] = a.y, four.ahead.z[lane] = a.z;
+        four.behind.x[lane] = b.x, four.behind.y[lane] = b.y, four.behind.z[lane] = b.z;
+        four.facing.x[lane] = facing.x, four.facing.y[lane] = facing.y, four.facing.z[lane] = facing.z;
+        fan.next[fan.count] = next, fan.previous[fan.count] = previous, fan.spoke[fan.count] = ring.spoke[i];
+        ++fan.count;
     }
+    Vec3<Lanes> sum = {};
+    for (uint32_t i = 0; i < fan.four_count(); ++i)
+        sum = sum + cross(fan.fours[i].ahead, fan.fours[i].behind);
+    const Vec3f outer = {total(sum.x), total(sum.y), total(sum.z)};
+    volume_.normal = volume_.normal + outer;
+    volume_.offset += dot(fan.tip, outer);
+}
+
+// The corners opposite to the edge keep a triangle.
+bool PackedCollapse::leaves_none_out(const Merge& m) const {
     if (mesh_.kinds[m.removed] == VertexKind::manifold) return true;
-    return std::all_of(opposite.begin(), opposite.begin() + dying_, [&](uint32_t vertex) {
-        return std::any_of(leaves_.begin(), leaves_.end(),
-                           [&](const Leaf& leaf) { return leaf.next == vertex || leaf.previous == vertex; });
-    });
+    const auto is_held = [](const Fan& fan, uint32_t vertex) {
+        for (uint32_t i = 0; i < fan.count; ++i)
+            if (fan.next[i] == vertex || fan.previous[i] == vertex) return true;
+        return false;
+    };
+    for (uint32_t i = 0; i < removed_ring_.count; ++i) {
+        const uint32_t next = removed_ring_.next[i], previous = removed_ring_.previous[i];
+        if (next != m.kept && previous != m.kept) continue;
+        const uint32_t opposite = next == m.kept ? previous : next;
+        if (!is_held(removed_fan_, opposite) && !is_held(kept_fan_, opposite)) return false;
+    }
+    return true;
 }
 
 std::optional<Vec3f> PackedCollapse::place(const Merge& m, const CentredQuadric& planes, Vec3f offset) {
     const auto is_sound = [&](Vec3f at) {
         if (m.moves && !is_in_box(mesh_.positions[m.kept] + at)) return false;
-        return keeps_orientation(m, at) && keeps_texture(m, at);
+        const Vec3f removed = facing_[m.removed], kept = facing_[m.kept];
+        const Vec3f facing = m.moves ? normalized(removed + kept) : kept;
+        return keeps_orientation(removed_fan_, removed, facing, at) &&
+               (!m.moves || keeps_orientation(kept_fan_, kept, facing, at)) && keeps_texture(m, at);
     };
     if (!m.moves) return is_sound({}) ? std::optional(Vec3f{}) : std::nullopt;
     CentredQuadric q = planes;
     for (uint32_t i = 0; i < pair_count_; ++i) q += attributes_.error(pairs_[i]);
     const bool is_inside = mesh_.kinds[m.kept] == VertexKind::manifold;
-    const std::optional<Vec3f> best = best_point(q, offset, is_inside ? volume_ : Constraint{});
-    if (best && is_sound(*best)) return best;
+    const Vec3f best = least_point(q, offset, is_inside ? &volume_ : nullptr);
+    if (is_sound(best)) return best;
     const Vec3f end = best_of_edge(q, offset);
     return is_sound(end) ? std::optional(end) : std::nullopt;
 }
@@ -412,32 +528,34 @@ bool PackedCollapse::is_in_box(Vec3f point) const {
 }
 
 // No triangle turns by more than about 75 degrees, now or away from where the surface faced at its corners at
-// the start; none becomes degenerate. Cosines are compared as squares.
-bool PackedCollapse::keeps_orientation(const Merge& m, Vec3f at) const {
-    const Vec3f here = m.moves ? normalized(facing_[m.removed] + facing_[m.kept]) : facing_[m.kept];
-    const Vec3f offset = mesh_.positions[m.removed] - mesh_.positions[m.kept];
-    const auto is_less = [](float cosine_times, float least_cosine, float squared) {
-        return cosine_times < 0 || cosine_times * cosine_times < least_cosine * least_cosine * squared;
-    };
-    for (const Leaf& leaf : leaves_) {
-        if (!leaf.of_removed && !m.moves) break;
-        const Vec3f normal = cross(leaf.ahead - at, leaf.behind - at);
-        const Vec3f others = facing_[leaf.next] + facing_[leaf.previous];
-        const float squared = squared_length(normal), squared_before = squared_length(leaf.normal);
-        const bool turns = is_less(dot(normal, leaf.normal), least_cosine_at_once, squared * squared_before);
-        const bool faces_away = is_less(dot(here + others, normal), 3 * least_cosine_to_facing, squared);
-        const bool is_flat = is_degenerate(at, leaf.ahead, leaf.behind, normal);
-        if (!turns && !faces_away && !is_flat) continue;
-        const bool was_degenerate =
-            is_degenerate(leaf.of_removed ? offset : Vec3f{}, leaf.ahead, leaf.behind, leaf.normal);
-        if (is_flat && was_degenerate) continue;
-        if (is_flat || (turns && !was_degenerate) || (faces_away && was_degenerate)) return false;
-        if (!faces_away) continue;
-        // Where it faced away before, it may as long as that is no worse.
-        const Vec3f own = facing_[leaf.of_removed ? m.removed : m.kept];
-        if (dot(here + others, normal) * std::sqrt(squared_before) <
-            dot(own + others, leaf.normal) * std::sqrt(squared)) {
-            return false;
+// the start; none becomes degenerate. Cosines are compared as squares; what fails is looked at again one by
+// one.
+bool PackedCollapse::keeps_orientation(const Fan& fan, Vec3f facing_before, Vec3f facing, Vec3f at) const {
+    const auto spread = [](Vec3f v) { return Vec3<Lanes>{Lanes{} + v.x, Lanes{} + v.y, Lanes{} + v.z}; };
+    const Vec3<Lanes> point = spread(at), tip = spread(fan.tip), own = spread(facing);
+    for (uint32_t i = 0; i < fan.four_count(); ++i) {
+        const Fan::Four& four = fan.fours[i];
+        const Vec3<Lanes> a = four.ahead - point, b = four.behind - point;
+        const Vec3<Lanes> after = cross(a, b), before = cross(four.ahead - tip, four.behind - tip);
+        const Lanes squared = squared_length(after);
+        const Lanes turned = dot(after, before), agreement = dot(own + four.facing, after);
+        const Lanes sides = squared_length(a) + squared_length(b);
+        const auto is_sound =
+            (turned > 0) & (agreement > 0) &
+            (turned * turned >
+             least_cosine_at_once * least_cosine_at_once * squared * squared_length(before)) &
+            (agreement * agreement > 9 * least_cosine_to_facing * least_cosine_to_facing * squared) &
+            (squared > 4 * degenerate_aspect * degenerate_aspect * sides * sides);
+        for (uint32_t lane = 0; lane < lane_count && i * lane_count + lane < fan.count; ++lane) {
+            if (is_sound[lane] != 0) continue;
+            const auto corner = [lane](const Vec3<Lanes>& v) {
+                return Vec3f{v.x[lane], v.y[lane], v.z[lane]};
+            };
+            const Vec3f others = corner(four.facing);
+            if (!may_turn({fan.tip, facing_before + others}, {at, facing + others}, corner(four.ahead),
+                          corner(four.behind))) {
+                return false;
+            }
         }
     }
     return true;
@@ -450,26 +568,27 @@ bool PackedCollapse::keeps_texture(const Merge& m, Vec3f at) const {
                          const std::array<float, 2>& c) {
         return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     };
-    for (const Leaf& leaf : leaves_) {
-        if (!leaf.of_removed && !m.moves) continue;
-        const auto wedges = mesh_.wedges(leaf.of_removed ? m.removed : m.kept, leaf.spoke);
-        const uint32_t own = wedge_now(wedges[0]), next = wedge_now(wedges[1]),
-                       previous = wedge_now(wedges[2]);
-        const auto is_of_leaf = [&](const WedgeQuadrics::Pair& pair) {
-            return (leaf.of_removed ? pair.removed : pair.kept) == own;
-        };
-        const auto end = pairs_.begin() + pair_count_;
-        const auto pair = std::find_if(pairs_.begin(), end, is_of_leaf);
-        if (pair == end) continue;  // another wedge of the vertex that stays
-        for (uint32_t set = 0; set < attributes_.uv_sets(); ++set) {
-            const auto ahead = attributes_.uv(next, set), behind = attributes_.uv(previous, set);
-            const float before = area(attributes_.uv(own, set), ahead, behind);
-            const float after = area(
-                m.moves ? attributes_.uv(*pair, at, set) : attributes_.uv(pair->kept, set), ahead, behind);
-            if (before != 0 && !(before * after > 0)) return false;
+    const auto keeps = [&](const Fan& fan, uint32_t vertex, uint32_t WedgeQuadrics::Pair::*end) {
+        for (uint32_t i = 0; i < fan.count; ++i) {
+            const auto wedges = mesh_.wedges(vertex, fan.spoke[i]);
+            const uint32_t own = wedge_now(wedges[0]), next = wedge_now(wedges[1]),
+                           previous = wedge_now(wedges[2]);
+            const auto pair = std::find_if(pairs_.begin(), pairs_.begin() + pair_count_,
+                                           [&](const auto& p) { return p.*end == own; });
+            if (pair == pairs_.begin() + pair_count_) continue;  // another wedge of the vertex that stays
+            for (uint32_t set = 0; set < attributes_.uv_sets(); ++set) {
+                const auto ahead = attributes_.uv(next, set), behind = attributes_.uv(previous, set);
+                const float before = area(attributes_.uv(own, set), ahead, behind);
+                const float after =
+                    area(m.moves ? attributes_.uv(*pair, at, set) : attributes_.uv(pair->kept, set), ahead,
+                         behind);
+                if (before > 0 ? !(after > 0) : before < 0 && !(after < 0)) return false;
+            }
         }
-    }
-    return true;
+        return true;
+    };
+    return keeps(removed_fan_, m.removed, &WedgeQuadrics::Pair::removed) &&
+           (!m.moves || keeps(kept_fan_, m.kept, &WedgeQuadrics::Pair::kept));
 }
 
 // The other neighbour of a vertex along its line.
@@ -477,16 +596,18 @@ std::optional<uint32_t> PackedCollapse::line_neighbour(uint32_t vertex, uint32_t
     const uint32_t begin = mesh_.first_spoke[vertex], end = mesh_.first_spoke[vertex + 1];
     const bool is_border = mesh_.kinds[vertex] == VertexKind::border;
     const auto own = [&](uint32_t spoke) { return wedge_now(mesh_.wedges(vertex, spoke)[0]); };
+    const auto other_end = [&](uint32_t spoke, bool next) {
+        return now(next ? mesh_.spokes[spoke].next : mesh_.spokes[spoke].previous);
+    };
     for (uint32_t s = begin; s < end; ++s) {
+        if (other_end(s, true) == other_end(s, false)) continue;  // gone in this pass
         for (const bool ahead : {true, false}) {
-            const auto other_end = [&](uint32_t spoke, bool next) {
-                return now(next ? mesh_.spokes[spoke].next : mesh_.spokes[spoke].previous);
-            };
             const uint32_t neighbour = other_end(s, ahead);
             if (neighbour == but || neighbour == vertex) continue;
             bool is_paired = false;
             for (uint32_t t = begin; t < end && !is_paired; ++t)
-                is_paired = other_end(t, !ahead) == neighbour && (is_border || own(t) == own(s));
+                is_paired = other_end(t, !ahead) == neighbour && other_end(t, ahead) != neighbour &&
+                            (is_border || own(t) == own(s));
             if (!is_paired) return neighbour;
         }
     }
@@ -497,17 +618,21 @@ std::optional<uint32_t> PackedCollapse::line_neighbour(uint32_t vertex, uint32_t
 std::optional<float> PackedCollapse::line_away(const Merge& m, Vec3f at) const {
     const std::optional<uint32_t> before = line_neighbour(m.removed, m.kept);
     if (!before) return {};
-    std::optional<uint32_t> after;
-    if (m.moves) after = line_neighbour(m.kept, m.removed);
+    const std::optional<uint32_t> after = m.moves ? line_neighbour(m.kept, m.removed) : std::nullopt;
     if (after && *after == *before) return {};  // all that is left of a loop
+    for (uint32_t i = 0; i < removed_ring_.count; ++i) {
+        const uint32_t next = removed_ring_.next[i], previous = removed_ring_.previous[i];
+        if ((next == m.kept && previous == *before) || (previous == m.kept && next == *before)) return {};
+    }
     const Vec3f removed = mesh_.positions[m.removed], kept = mesh_.positions[m.kept], point = kept + at;
     const auto from_line = [&](Vec3f p) {
         float distance = distance_to_segment(p, mesh_.positions[*before], point);
         if (after) distance = std::min(distance, distance_to_segment(p, point, mesh_.positions[*after]));
         return distance;
     };
-    const float away =
-        std::max(away_[m.removed], away_[m.kept]) + std::max(from_line(removed), from_line(kept));
+    const float carried =
+        std::max({away_[m.removed], away_[m.kept], away_[*before], after ? away_[*after] : 0});
+    const float away = carried + std::max(from_line(removed), from_line(kept));
     return away <= line_tolerance ? std::optional(away) : std::nullopt;
 }
 
@@ -525,6 +650,8 @@ void PackedCollapse::apply(const Merge& m, Vec3f at, const CentredQuadric& plane
         for (uint32_t i = 0; m.moves && i < pair_count_; ++i) blend(pairs_[i].removed, pairs_[i].kept);
     }
     for (uint32_t i = 0; i < pair_count_; ++i) {
+        if (i == 1 && pairs_[1].kept == pairs_[0].kept && attributes_.any())
+            attributes_.join(offset, pairs_[1]);  // the first merge has changed it; a seam ends here
         if (attributes_.any()) attributes_.merge(pairs_[i], at, !m.moves);
         if (mesh_.has_wedges()) wedge_becomes_[pairs_[i].removed] = pairs_[i].kept;
     }
@@ -539,7 +666,7 @@ void PackedCollapse::apply(const Merge& m, Vec3f at, const CentredQuadric& plane
 }
 
 double PackedCollapse::error_model_units() const {
-    return std::sqrt(double{squared_error_}) * mesh_.diagonal;
+    return double{largest_error_} * mesh_.diagonal;
 }
 
 Mesh PackedCollapse::extract(const Watch& watch) const {

@@ -17,6 +17,7 @@
 #include "core/base/watch.h"
 #include "core/simplify/algorithm.h"
 #include "core/simplify/attribute_quadric/centred_quadric.h"
+#include "core/simplify/attribute_quadric/lanes.h"
 #include "core/simplify/attribute_quadric/packed_mesh.h"
 #include "core/simplify/attribute_quadric/wedge_quadrics.h"
 #include "core/simplify/wedge_values.h"
@@ -43,9 +44,9 @@ class PackedCollapse {
     void run(const Target& target, const Watch& watch);
 
     bool is_met(const Target& target) const;
-    // The largest that a collapse was off its planes, in the mean, in mesh units.
+    // How far the surface has moved, at most, in mesh units: an estimate. Without a limit, the largest mean
+    // distance from the planes that a vertex stands for.
     double error_model_units() const;
-    bool met_error_limit() const { return met_error_limit_; }
 
     Mesh extract(const Watch& watch) const;
 
@@ -63,37 +64,50 @@ class PackedCollapse {
         std::array<uint32_t, 2 * most> neighbours = {};
         uint32_t neighbour_count = 0;
     };
-    // A triangle that stays, seen from where the vertex that stays is before the collapse.
-    struct Leaf {
-        Vec3f ahead, behind, normal;  // the other two corners; twice the area long
-        uint32_t next = 0, previous = 0, spoke = 0;
-        bool of_removed = false;
+    // Those of them that stay, in fours, seen from where the vertex that stays is before the collapse. What
+    // is left over in the last four has no area.
+    struct Fan {
+        struct Four {
+            Vec3<Lanes> ahead, behind;  // the other two corners
+            Vec3<Lanes> facing;         // summed over these
+        };
+        Vec3f tip;  // the vertex
+        std::array<Four, Ring::most / lane_count> fours;
+        std::array<uint32_t, Ring::most> next, previous, spoke;
+        uint32_t count = 0;
+
+        uint32_t four_count() const { return (count + lane_count - 1) / lane_count; }
     };
 
+    double mean_instance_weight(const Watch& watch) const;
     void add_planes(const Watch& watch);
     void add_lines(const Watch& watch);
     void rank(const Watch& watch);
+    float cost_of(uint64_t place, const Watch& watch) const;
+    void sort_up_to(float dearest, const Watch& watch);
     std::optional<Merge> merge_along(uint32_t from) const;  // a corner, to the next one
+    std::optional<Merge> line_merge(uint32_t from, uint32_t to) const;
     void find_pairs(const Merge& merge);
     CentredQuadric planes_of(const Merge& merge, Vec3f offset) const;
     float cost(const Merge& merge);
-    std::optional<Vec3f> best_point(const CentredQuadric& q, Vec3f offset, const Constraint& keep) const;
-    Vec3f best_of_edge(const CentredQuadric& q, Vec3f offset) const;
+    void cost_planes(const std::array<uint32_t, lane_count>& corners, uint32_t count);
 
     // How many may go yet.
     struct ToGo {
         uint64_t triangles = 0, vertices = 0;
     };
     ToGo to_go(const Target& target) const;
-    uint64_t pass(const ToGo& to_go, float squared_limit, const Watch& watch);
+    uint64_t pass(const ToGo& to_go, const Watch& watch);
     void pack(const Watch& watch);
     bool is_in_box(Vec3f point) const;
-    uint32_t try_collapse(const Merge& merge, float squared_limit);
+    uint32_t try_collapse(const Merge& merge);
+    float distance_after(const Merge& merge, Vec3f at) const;
     bool gather(uint32_t vertex, Ring& ring) const;
     bool has_sound_link(const Merge& merge) const;
-    bool gather_leaves(const Merge& merge);
+    void gather_fan(uint32_t vertex, uint32_t other, Vec3f origin, const Ring& ring, Fan& fan);
+    bool leaves_none_out(const Merge& merge) const;
     std::optional<Vec3f> place(const Merge& merge, const CentredQuadric& q, Vec3f offset);
-    bool keeps_orientation(const Merge& merge, Vec3f at) const;
+    bool keeps_orientation(const Fan& fan, Vec3f facing_before, Vec3f facing, Vec3f at) const;
     bool keeps_texture(const Merge& merge, Vec3f at) const;
     std::optional<float> line_away(const Merge& merge, Vec3f at) const;
     std::optional<uint32_t> line_neighbour(uint32_t vertex, uint32_t but) const;
@@ -118,22 +132,23 @@ class PackedCollapse {
     std::vector<Vec3f> facing_;           // per vertex: where the surface faced at the start; unit or zero
     std::vector<float> away_;             // per vertex of a line: how far it may be from where it was
     std::vector<bool> moved_;             // per vertex
-    float squared_error_ = 0;             // in diagonals
-    bool met_error_limit_ = false;
+    bool limits_error_ = false;
+    float error_limit_ = 0, largest_error_ = 0;  // diagonals
+    std::vector<float> carried_;                 // per vertex, with a limit: how far it may be off by now
 
     // Of a pass.
     std::vector<float> costs_;      // per corner, of the edge to the next; none for edges that may not go
     std::vector<uint8_t> changed_;  // per vertex: in the last pass
-    std::vector<uint32_t> order_, sorted_;  // corners
+    std::vector<uint32_t> order_, sorted_;  // corners of edges, the cheap ones
+    float patience_ = 0;
     std::vector<uint32_t> vertex_becomes_, wedge_becomes_;
 
     // Of a collapse.
     std::array<WedgeQuadrics::Pair, 2> pairs_;
     uint32_t pair_count_ = 0;
     Ring removed_ring_, kept_ring_;
-    std::vector<Leaf> leaves_;
-    uint32_t dying_ = 0;
-    Constraint volume_;
+    Fan removed_fan_, kept_fan_;
+    Constraint<float> volume_;
 };
 
 }  // namespace coppice

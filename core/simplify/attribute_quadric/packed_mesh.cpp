@@ -12,9 +12,6 @@ namespace coppice {
 
 namespace {
 
-// Vertices of more triangles stay, and nothing is merged into them: rings are searched again and again.
-constexpr uint32_t largest_valence = 48;
-
 bool wedges_are_vertices(const Mesh& mesh) {
     if (mesh.slots.size() > 1 || mesh.wedge_count() != mesh.vertex_count()) return false;
     for (uint32_t w = 0; w < mesh.wedge_count(); ++w)
@@ -38,24 +35,35 @@ struct Edge {
 
 PackedMesh::PackedMesh(const Mesh& source, const Watch& watch) {
     take_triangles(source, watch);
+    watched_resize(positions, source.vertex_count(), watch);
+    link(watch);
     Bounds box;
-    for (const uint32_t v : triangles) box.extend(to_double(source.positions[v]));
+    for (uint32_t v = 0; v < vertex_count(); ++v)
+        if (valence(v) > 0) box.extend(to_double(source.positions[v]));
     if (!box.empty()) {
         centre = (box.min + box.max) * 0.5;
         diagonal = box.diagonal();
     }
     const double scale = diagonal > 0 ? 1 / diagonal : 0;
     if (!box.empty()) half_box = to_float((box.max - centre) * scale);
-    positions.reserve(source.vertex_count());
-    watched_loop(source.vertex_count(), watch, [&](size_t v) {
-        positions.push_back(to_float((to_double(source.positions[v]) - centre) * scale));
+    watched_loop(vertex_count(), watch, [&](size_t v) {
+        positions[v] = to_float((to_double(source.positions[v]) - centre) * scale);
     });
     vertex_source.resize(source.vertex_count());
     std::iota(vertex_source.begin(), vertex_source.end(), 0U);
-    link(watch);
     kinds.resize(vertex_count());
     watched_loop(vertex_count(), watch, [&](size_t v) { kinds[v] = kind_of(static_cast<uint32_t>(v)); });
     lock_extremes();
+    drop_unused_vertices(watch);
+}
+
+void PackedMesh::drop_unused_vertices(const Watch& watch) {
+    bool all_used = true;
+    for (uint32_t v = 0; v < vertex_count(); ++v) all_used = all_used && valence(v) > 0;
+    if (all_used) return;
+    std::vector<uint32_t> same(std::max(vertex_count(), wedge_count()));
+    std::iota(same.begin(), same.end(), 0U);
+    compact(same, same, watch);
 }
 
 void PackedMesh::take_triangles(const Mesh& source, const Watch& watch) {
@@ -121,7 +129,7 @@ bool PackedMesh::is_plain(uint32_t vertex) const {
     uint64_t difference = 0;
     const auto scrambled = [](uint64_t n) {
         n = (n + 1) * 0x9e3779b97f4a7c15ULL;
-        return (n ^ (n >> 29)) * 0xbf58476d1ce4e5b9ULL;
+        return n ^ (n >> 32);
     };
     const uint32_t begin = first_spoke[vertex], end = first_spoke[vertex + 1];
     const uint32_t wedge = wedges(vertex, begin)[0];
@@ -133,8 +141,24 @@ bool PackedMesh::is_plain(uint32_t vertex) const {
     return difference == 0;
 }
 
+// From one triangle to the next, all are reached. No edge has more than two.
+bool PackedMesh::is_one_fan(uint32_t vertex) const {
+    const uint32_t begin = first_spoke[vertex], end = first_spoke[vertex + 1];
+    uint32_t first = begin;
+    for (uint32_t s = begin; s < end; ++s)
+        if (!against(vertex, spokes[s].next)) first = s;  // of half a disc
+    uint32_t steps = 0, at = first;
+    do {
+        ++steps;
+        const std::optional<uint32_t> after = along(vertex, spokes[at].previous);
+        if (!after) break;
+        at = *after;
+    } while (at != first);
+    return steps == valence(vertex);
+}
+
 VertexKind PackedMesh::kind_of(uint32_t vertex) const {
-    if (valence(vertex) == 0 || valence(vertex) > largest_valence) return VertexKind::complex;
+    if (valence(vertex) == 0 || is_hub(vertex)) return VertexKind::complex;
     if (is_plain(vertex)) return VertexKind::manifold;
     std::array<Edge, 2 * largest_valence> edges;
     uint32_t count = 0;
@@ -152,15 +176,17 @@ VertexKind PackedMesh::kind_of(uint32_t vertex) const {
         ++behind.against, behind.wedges_against = {own, previous};
     }
     uint32_t borders = 0, seams = 0;
+    bool parts = true;  // every seam gives the vertex another wedge on its other side
     for (uint32_t i = 0; i < count; ++i) {
         if (edges[i].is_crowded()) return VertexKind::complex;
         borders += edges[i].is_border();
         seams += edges[i].is_seam();
+        parts = parts && (!edges[i].is_seam() || edges[i].wedges_along[0] != edges[i].wedges_against[0]);
     }
-    if (borders > 2) return VertexKind::complex;  // several fans
+    if (!is_one_fan(vertex)) return VertexKind::complex;
     if (borders == 0 && seams == 0) return VertexKind::manifold;
     if (borders == 2 && seams == 0) return VertexKind::border;
-    if (borders == 0 && seams == 2) return VertexKind::seam;
+    if (borders == 0 && seams == 2 && parts) return VertexKind::seam;
     return VertexKind::corner;
 }
 
@@ -213,9 +239,9 @@ Renumbering PackedMesh::compact(std::span<const uint32_t> vertex_becomes,
     };
     result.vertices_left = number(result.vertices);
     for (uint32_t& v : triangles) v = result.vertices[v];
-    renumber(positions, result.vertices, result.vertices_left);
-    renumber(kinds, result.vertices, result.vertices_left);
-    renumber(vertex_source, result.vertices, result.vertices_left);
+    renumber(positions, result.vertices, result.vertices_left, watch);
+    renumber(kinds, result.vertices, result.vertices_left, watch);
+    renumber(vertex_source, result.vertices, result.vertices_left, watch);
     if (has_wedges()) {
         corner_wedges.resize(size_t{3} * left);
         result.wedges_left = number(result.wedges);
@@ -224,7 +250,7 @@ Renumbering PackedMesh::compact(std::span<const uint32_t> vertex_becomes,
         result.wedges = result.vertices;
         result.wedges_left = result.vertices_left;
     }
-    renumber(wedge_source, result.wedges, result.wedges_left);
+    renumber(wedge_source, result.wedges, result.wedges_left, watch);
     link(watch);
     return result;
 }

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/watch.h"
+#include "core/base/watched_loop.h"
 #include "core/mesh/mesh.h"
 #include "core/simplify/vertex_kind.h"
 
@@ -25,15 +25,18 @@ struct Renumbering {
 
 // Moves what is stored per vertex, wedge or triangle, `stride` values each, to its new place.
 template <typename T>
-void renumber(std::vector<T>& values, std::span<const uint32_t> numbers, size_t left, size_t stride = 1) {
-    for (size_t i = 0; i < numbers.size(); ++i) {
-        if (numbers[i] == no_index || numbers[i] == i) continue;
+void renumber(std::vector<T>& values, std::span<const uint32_t> numbers, size_t left, const Watch& watch,
+              size_t stride = 1) {
+    watched_loop(numbers.size(), watch, [&](size_t i) {
+        if (numbers[i] == no_index || numbers[i] == i) return;
         for (size_t k = 0; k < stride; ++k) values[numbers[i] * stride + k] = values[i * stride + k];
-    }
+    });
     values.resize(left * stride);
 }
 
 struct PackedMesh {
+    static constexpr uint32_t largest_valence = 48;
+
     // A triangle as one of its vertices sees it: the other two, in order.
     struct Spoke {
         uint32_t next = 0, previous = 0;
@@ -55,6 +58,9 @@ struct PackedMesh {
         return {corner_wedges[corner], corner_wedges[first + (k + 1) % 3],
                 corner_wedges[first + (k + 2) % 3]};
     }
+
+    // Vertices of more triangles stay, and nothing is merged into them: rings are searched again and again.
+    bool is_hub(uint32_t vertex) const { return valence(vertex) > largest_valence; }
 
     // A spoke of `vertex` whose next (previous) is `other`: a triangle that runs along the edge (against it).
     std::optional<uint32_t> along(uint32_t vertex, uint32_t other) const;
@@ -84,6 +90,8 @@ struct PackedMesh {
     void link(const Watch& watch);
     VertexKind kind_of(uint32_t vertex) const;
     bool is_plain(uint32_t vertex) const;
+    bool is_one_fan(uint32_t vertex) const;
+    void drop_unused_vertices(const Watch& watch);
     void lock_extremes();
 };
 

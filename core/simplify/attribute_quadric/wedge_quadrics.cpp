@@ -9,6 +9,9 @@ namespace coppice {
 
 namespace {
 
+// Textures are never mirrored, whatever they weigh.
+constexpr double least_uv_weight = 1e-4;
+
 // How long one unit of texture coordinates is in space, in diagonals: sqrt(area / area in the texture).
 double length_of_uv(const PackedMesh& mesh, const Attribute& uv, const Watch& watch) {
     double in_space = 0, in_texture = 0;
@@ -59,7 +62,7 @@ void WedgeQuadrics::add_channels(const PackedMesh& mesh, const Mesh& source, con
             scale = weights.normal;
             channel.range = Channel::Range::unit_length;
         } else if (a.name.starts_with("TEXCOORD_") && a.components == 2) {
-            scale = weights.uv * length_of_uv(mesh, a, watch);
+            scale = std::max(weights.uv, least_uv_weight) * length_of_uv(mesh, a, watch);
         } else if (a.name.starts_with("COLOR_") && a.components <= 4) {
             scale = weights.color;
             channel.range = Channel::Range::zero_to_one;
@@ -134,10 +137,6 @@ CentredQuadric WedgeQuadrics::error(const Pair& pair) const {
     return q;
 }
 
-float WedgeQuadrics::error_with_values_kept(const Pair& pair, Vec3f at) const {
-    return pair.quadric(at);
-}
-
 float WedgeQuadrics::best_change(const Pair& pair, Vec3f at, uint32_t component) const {
     const float weight = pair.quadric.weight;
     return weight > 0 ? (dot(pair.gradients[component], at) + pair.offsets[component]) / weight : 0;
@@ -193,14 +192,14 @@ void WedgeQuadrics::write(Mesh& mesh) const {
     }
 }
 
-void WedgeQuadrics::renumber_wedges(const Renumbering& numbers) {
+void WedgeQuadrics::renumber_wedges(const Renumbering& numbers, const Watch& watch) {
     if (!any()) return;
     const size_t left = numbers.wedges_left;
-    renumber(quadrics_, numbers.wedges, left);
-    renumber(values_, numbers.wedges, left, components_);
-    renumber(offsets_, numbers.wedges, left, components_);
-    renumber(gradients_, numbers.wedges, left, components_);
-    renumber(is_merged_, numbers.wedges, left);
+    renumber(quadrics_, numbers.wedges, left, watch);
+    renumber(values_, numbers.wedges, left, watch, components_);
+    renumber(offsets_, numbers.wedges, left, watch, components_);
+    renumber(gradients_, numbers.wedges, left, watch, components_);
+    renumber(is_merged_, numbers.wedges, left, watch);
 }
 
 }  // namespace coppice

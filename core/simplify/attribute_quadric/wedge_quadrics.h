@@ -13,9 +13,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
-#include <span>
-#include <string_view>
 #include <vector>
 
 #include "core/base/watch.h"
@@ -39,6 +36,7 @@ class WedgeQuadrics {
                   const Watch& watch);
 
     bool any() const { return components_ > 0; }
+    bool holds_all_of(const Mesh& source) const { return channels_.size() == source.attributes.size(); }
 
     // Two wedges as one, seen from the one that stays.
     struct Pair {
@@ -53,8 +51,8 @@ class WedgeQuadrics {
 
     // What is left where the best values are taken; its weight is 0, since only planes have one.
     CentredQuadric error(const Pair& pair) const;
-    // The error at a point where the wedge that stays keeps its values.
-    float error_with_values_kept(const Pair& pair, Vec3f at) const;
+    // The error where the wedge that stays does so with its values.
+    float error_with_values_kept(const Pair& pair) const { return pair.quadric.c; }
 
     // The wedge that stays is at that point now, with the best values or with those it has.
     void merge(const Pair& pair, Vec3f at, bool keep_values);
@@ -67,7 +65,7 @@ class WedgeQuadrics {
     // Writes the values of all wedges that were merged over those in the mesh: wedge i there is i here.
     void write(Mesh& mesh) const;
 
-    void renumber_wedges(const Renumbering& numbers);
+    void renumber_wedges(const Renumbering& numbers, const Watch& watch);
 
   private:
     struct Channel {
