@@ -54,7 +54,7 @@ class CheapestFirst {
         uint64_t collapses = 0;
         do {
             queue_all();
-            collapses = drain(std::numeric_limits<double>::infinity());
+            collapses = drain();
         } while (!work_.done() && collapses > mesh_.live_vertices() / 1000);
     }
 
@@ -66,10 +66,10 @@ class CheapestFirst {
             if (mesh_.is_live_vertex(v)) queue(v, work_.next_candidate(v, {}));
         }
     }
-    // Until the work is done, or nothing is left that costs at most this. Returns how often it collapsed.
-    uint64_t drain(double dearest) {
+    // One round: until the work is done or nothing is left in the queue. Returns how often it collapsed.
+    uint64_t drain() {
         uint64_t collapses = 0;
-        for (uint64_t step = 0; !empty() && cheapest() <= dearest && !work_.done(); ++step) {
+        for (uint64_t step = 0; !empty() && !work_.done(); ++step) {
             if (step % 16 == 0) watch_.check();
             if (step % 512 == 0) watch_.report(work_.fraction());
             collapses += try_cheapest();

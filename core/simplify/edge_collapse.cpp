@@ -238,6 +238,9 @@ Vec3f EdgeCollapse::mean_facing(const Merge& m) const {
 double EdgeCollapse::deviation(const Merge& m) const {
     const Vec3d p = mesh_.position(m.removed), q = mesh_.position(m.kept), at = m.placed.at;
     double from_p = length(p - at), from_q = length(q - at);
+    // A gap that closes is as far from the surface that was there.
+    if (m.tie == Tie::nearness)
+        return std::max(deviation_.carried(m.removed) + from_p, deviation_.carried(m.kept) + from_q);
     for (const auto& [vertex, other] : {std::pair(m.removed, m.kept), std::pair(m.kept, m.removed)}) {
         for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c)) {
             const uint32_t a = mesh_.corner_vertex(CollapseMesh::next_corner(c));

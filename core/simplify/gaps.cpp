@@ -1,7 +1,7 @@
 #include "core/simplify/gaps.h"
 
+#include <algorithm>
 #include <array>
-#include <limits>
 #include <memory>
 
 #include "core/simplify/edge_collapse.h"
@@ -15,13 +15,16 @@ namespace coppice {
 
 namespace {
 
+// Doubling from less would only take time.
+constexpr double least_distance_of_diagonal = 1e-6;
+
 std::span<const Parameter> parameters() {
     static const std::array<Parameter, 6> list = {{
         instances_parameter(),
         {.id = "pair_distance",
          .title = "how near vertices of open borders are to each other to be merged without an edge between "
-                  "them, which joins parts and closes gaps: at first; it doubles whenever no merge is left "
-                  "whose error is less; 0: only edges are merged",
+                  "them, which joins parts and closes gaps; it doubles whenever nothing is left to merge; 0: "
+                  "only edges are merged",
          .kind = Parameter::Kind::length,
          .unit = "mean edges",
          .default_value = 0.25,
@@ -38,22 +41,30 @@ std::span<const Parameter> parameters() {
     return list;
 }
 
-// As long as merges are left whose error is less than the pair distance, those come first; then it doubles,
-// until it is as large as the mesh.
-void run(EdgeCollapse& work, double pair_distance, const Watch& watch) {
+Simplified finished(const EdgeCollapse& work, const Watch& watch) {
+    return work.finish(work.done() ? StopReason::target : work.reason_for_refusals(), watch);
+}
+
+// The pair distance doubles while nothing else is left. Ends that are farther apart than twice what lines may
+// move are never joined, nor those that the error parts. Joins alone save nothing: where no triangle goes,
+// the result is what was there before.
+Simplified run(EdgeCollapse& work, double pair_distance, const Target& target, const Watch& watch) {
     CheapestFirst order(work, watch);
-    if (!work.has_pairs()) return order.run();
-    order.queue_all();
+    order.run();
+    Simplified best = finished(work, watch);
     const double diagonal = work.mesh().box().diagonal();
-    for (double distance = pair_distance;; distance *= 2) {
-        const bool is_last = !(distance < diagonal);
-        order.drain(is_last ? std::numeric_limits<double>::infinity() : distance);
-        if (order.empty()) order.run();
-        if (work.done() || is_last) break;
-        work.set_pair_distance(2 * distance, watch);
+    const double farthest =
+        2 * std::min(line_tolerance_of_diagonal * diagonal, target.error_model_units.value_or(diagonal));
+    double distance = std::max(pair_distance, least_distance_of_diagonal * diagonal);
+    while (work.has_pairs() && !work.done() && distance < farthest) {
+        distance *= 2;
+        work.set_pair_distance(distance, watch);
         for (uint32_t v = 0; v < work.mesh().vertex_count(); ++v)
             if (work.is_paired(v)) order.queue_again(v);
+        if (order.drain() > 0 && !work.done()) order.run();
+        if (work.mesh().live_triangles() < best.mesh.triangle_count()) best = finished(work, watch);
     }
+    return best;
 }
 
 Simplified simplify(const Mesh& source, std::span<const Transform> /*instances*/, const Target& target,
@@ -68,9 +79,9 @@ Simplified simplify(const Mesh& source, std::span<const Transform> /*instances*/
          .area_tolerance = values.number("area_tolerance")},
         [&](const CollapseParts& parts) { return std::make_unique<GapsError>(parts, PlaneOptions{}, watch); },
         watch);
-    run(work, pair_distance, watch);
+    Simplified result = run(work, pair_distance, target, watch);
     watch.report(1.0);
-    return work.finish(work.done() ? StopReason::target : work.reason_for_refusals(), watch);
+    return result;
 }
 
 }  // namespace

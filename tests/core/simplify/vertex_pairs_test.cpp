@@ -180,16 +180,40 @@ Simplified gaps_to(const Mesh& mesh, uint64_t triangles, const test::Parameters&
     return test::run_algorithm(gaps(), mesh, {.triangles = triangles}, parameters);
 }
 
-TEST(Joining, of_gaps_finds_its_distance_by_itself) {
+TEST(Joining, of_gaps_needs_no_distance) {
     const Mesh mesh = shapes::tiles();
     EXPECT_EQ(gaps_to(mesh, 40).stop_reason, StopReason::target);
-    EXPECT_EQ(gaps_to(mesh, 40, {{"pair_distance", 0.001}}).stop_reason, StopReason::target);
     EXPECT_EQ(gaps_to(mesh, 40, {{"pair_distance", 0.0}}).mesh.triangle_count(), tiles_alone);
 }
 
+TEST(Joining, of_gaps_goes_farther_once_nothing_else_is_left) {
+    const Mesh mesh =
+        shapes::tiles({.columns = 2, .rows = 2});  // edges of squares as large are not collapsed
+    EXPECT_EQ(gaps_to(mesh, 2, {{"pair_distance", 0.0}}).mesh.triangle_count(), 8U);
+    EXPECT_EQ(gaps_to(mesh, 2, {{"pair_distance", 0.001}}).mesh.triangle_count(), 2U);
+}
+
 TEST(Joining, of_gaps_changes_no_more_area_than_is_tolerated) {
-    const Mesh mesh = shapes::tiles();  // whose gaps would become surface
-    EXPECT_EQ(gaps_to(mesh, 40, {{"area_tolerance", 0.0}}).mesh.triangle_count(), tiles_alone);
+    // One sheet once its cracks are closed, which become surface.
+    const Mesh mesh = shapes::tiles({.columns = 2, .rows = 1, .cells = 8, .gap = 0.02});
+    EXPECT_NEAR(area(gaps_to(mesh, 60).mesh), 1.98 * 0.98, 1e-3);
+    EXPECT_NEAR(area(gaps_to(mesh, 60, {{"area_tolerance", 0.0}}).mesh), area(mesh), 1e-3);
+}
+
+TEST(Joining, of_gaps_that_saves_no_triangle_is_not_kept) {
+    const Mesh mesh = shapes::tiles({.gap = 0.3});  // too wide to be closed once edges have been collapsed
+    const Mesh alone = gaps_to(mesh, 1, {{"pair_distance", 0.0}}).mesh;
+    const Mesh result = gaps_to(mesh, 1).mesh;
+    EXPECT_EQ(result.triangle_count(), tiles_alone);
+    EXPECT_EQ(result.positions, alone.positions);
+}
+
+TEST(Joining, counts_a_gap_that_closes_as_error) {
+    const Mesh mesh = shapes::tiles({.columns = 2, .rows = 1, .cells = 8, .gap = 0.02});
+    EXPECT_GE(quadric_to(mesh, 60, "0.03u").error_model_units, 0.0099);
+    const Simplified limited = gaps().simplify(mesh, {}, {.triangles = 2, .error_model_units = 0.009},
+                                               ParameterValues::parse(gaps().parameters, {}), {});
+    EXPECT_NEAR(area(limited.mesh), area(mesh), 1e-3);
 }
 
 TEST(Joining, of_gaps_leaves_large_plates_apart) {
