@@ -7,8 +7,9 @@
 // Where a pair distance is set, vertices of open borders that near each other (vertex_pairs.h) may be joined,
 // too, as if an edge led from one to the other: gaps close, parts become one. No edge gets a third triangle
 // by that, sheets are joined only so that both face the same way, and no texture or material is drawn over a
-// gap: both ends must agree in all values but normals and colours. Borders move by no more than line_guard.h
-// allows; where two of them become one edge they are borders no more.
+// gap: both ends must agree in all values but normals and colours. Two parts touch in one vertex only where
+// more of their borders is near enough to follow. Borders move by no more than line_guard.h allows; where two
+// of them become one edge they are borders no more.
 #pragma once
 
 #include <cstdint>

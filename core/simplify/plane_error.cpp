@@ -66,7 +66,7 @@ PlaneQuadrics::PlaneQuadrics(const CollapseParts& parts, const PlaneOptions& opt
       options_(options),
       quadrics_(parts.mesh.vertex_count()),
       weights_(parts.mesh.vertex_count(), 0.0),
-      lines_(parts.joins ? parts.mesh.vertex_count() : 0) {
+      line_of_(watched_vector(parts.joins ? parts.mesh.vertex_count() : 0, watch, no_index)) {
     add_triangles(watch);
     add_lines(parts.features, watch);
 }
@@ -89,12 +89,21 @@ void PlaneQuadrics::add_triangles(const Watch& watch) {
 }
 
 void PlaneQuadrics::add_lines(std::span<const FeatureEdge> edges, const Watch& watch) {
-    std::vector<Quadric>& quadrics = lines_.empty() ? quadrics_ : lines_;
     watched_loop(edges.size(), watch, [&](size_t i) {
         const Quadric plane = plane_of_line(edges[i]);
-        quadrics[edges[i].a] += plane;
-        quadrics[edges[i].b] += plane;
+        line_quadric(edges[i].a) += plane;
+        line_quadric(edges[i].b) += plane;
     });
+}
+
+Quadric& PlaneQuadrics::line_quadric(uint32_t vertex) {
+    if (line_of_.empty()) return quadrics_[vertex];
+    uint32_t& line = line_of_[vertex];
+    if (line == no_index) {
+        line = static_cast<uint32_t>(lines_.size());
+        lines_.emplace_back();
+    }
+    return lines_[line];
 }
 
 // Through a border or seam edge, perpendicular to the triangle.
@@ -112,12 +121,15 @@ Quadric PlaneQuadrics::plane_of_line(const FeatureEdge& f) const {
 void PlaneQuadrics::merge(uint32_t removed, uint32_t kept) {
     quadrics_[kept] += quadrics_[removed];
     weights_[kept] += weights_[removed];
-    if (!lines_.empty()) lines_[kept] += lines_[removed];
+    if (line_of_.empty() || line_of_[removed] == no_index) return;
+    const Quadric line = lines_[line_of_[removed]];
+    line_quadric(kept) += line;
 }
 
 void PlaneQuadrics::set_lines(uint32_t vertex, std::span<const FeatureEdge> edges) {
-    lines_[vertex] = {};
-    for (const FeatureEdge& edge : edges) lines_[vertex] += plane_of_line(edge);
+    Quadric& lines = line_quadric(vertex);
+    lines = {};
+    for (const FeatureEdge& edge : edges) lines += plane_of_line(edge);
 }
 
 PlaneError::PlaneError(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch)

@@ -26,8 +26,11 @@ class PlaneQuadrics {
     PlaneQuadrics(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch);
 
     Quadric sum(uint32_t a, uint32_t b) const {
-        const Quadric q = quadrics_[a] + quadrics_[b];
-        return lines_.empty() ? q : q + lines_[a] + lines_[b];
+        Quadric q = quadrics_[a] + quadrics_[b];
+        if (line_of_.empty()) return q;
+        if (line_of_[a] != no_index) q += lines_[line_of_[a]];
+        if (line_of_[b] != no_index) q += lines_[line_of_[b]];
+        return q;
     }
     // What a join costs: without what holds lines. Where joins are possible.
     Quadric sum_of_triangles(uint32_t a, uint32_t b) const { return quadrics_[a] + quadrics_[b]; }
@@ -40,13 +43,16 @@ class PlaneQuadrics {
   private:
     void add_triangles(const Watch& watch);
     void add_lines(std::span<const FeatureEdge> edges, const Watch& watch);
+    Quadric& line_quadric(uint32_t vertex);
     Quadric plane_of_line(const FeatureEdge& edge) const;
 
     const CollapseMesh& mesh_;
     PlaneOptions options_;
     std::vector<Quadric> quadrics_;
     std::vector<double> weights_;
-    std::vector<Quadric> lines_;  // where those may end; else they are in quadrics_
+    // Where lines may end, what holds them is apart; else it is in quadrics_. Few vertices have any.
+    std::vector<uint32_t> line_of_;  // per vertex: in lines_
+    std::vector<Quadric> lines_;
 };
 
 // The point of the given freedom that is least far from the planes. anywhere: where Ap = -b, if that has one
