@@ -45,24 +45,28 @@ Simplified finished(const EdgeCollapse& work, const Watch& watch) {
     return work.finish(work.done() ? StopReason::target : work.reason_for_refusals(), watch);
 }
 
-// The pair distance doubles while nothing else is left. Ends that are farther apart than twice what lines may
-// move are never joined, nor those that the error parts. Joins alone save nothing: where no triangle goes,
-// the result is what was there before.
+// The pair distance doubles while nothing else is left, and while that pays. Ends that are farther apart than
+// twice what lines may move are never joined, nor those that the error parts. Joins alone save nothing: where
+// no triangle goes, the result is what was there before.
 Simplified run(EdgeCollapse& work, double pair_distance, const Target& target, const Watch& watch) {
     CheapestFirst order(work, watch);
     order.run();
     Simplified best = finished(work, watch);
-    const double diagonal = work.mesh().box().diagonal();
+    const CollapseMesh& mesh = work.mesh();
+    const double diagonal = mesh.box().diagonal();
     const double farthest =
         2 * std::min(line_tolerance_of_diagonal * diagonal, target.error_model_units.value_or(diagonal));
     double distance = std::max(pair_distance, least_distance_of_diagonal * diagonal);
     while (work.has_pairs() && !work.done() && distance < farthest) {
         distance *= 2;
         work.set_pair_distance(distance, watch);
-        for (uint32_t v = 0; v < work.mesh().vertex_count(); ++v)
+        for (uint32_t v = 0; v < mesh.vertex_count(); ++v)
             if (work.is_paired(v)) order.queue_again(v);
-        if (order.drain() > 0 && !work.done()) order.run();
-        if (work.mesh().live_triangles() < best.mesh.triangle_count()) best = finished(work, watch);
+        if (order.empty()) continue;  // none are so near
+        const uint32_t before = mesh.live_triangles();
+        order.drain();
+        if (mesh.live_triangles() < best.mesh.triangle_count()) best = finished(work, watch);
+        if (before - mesh.live_triangles() < before / 50) break;
     }
     return best;
 }

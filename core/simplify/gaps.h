@@ -13,10 +13,11 @@
 // Departures:
 //   - Scales of attributes: attribute_cloud.h; the paper's are not known.
 //   - Pairs without an edge are vertices of open borders alone, see quadric; what the paper says of where its
-//   threshold starts and of its area test is not known. The threshold doubles once nothing is left to merge;
-//   by what ITS says of it, it grows with the error, too, but what lies on one plane is then joined over any
-//   distance before edges are, and ends with more triangles. A merge without an edge may change the area
-//   around it by area_tolerance of itself, and by no more than a disc of the pair distance.
+//   threshold starts and of its area test is not known. The threshold doubles once nothing is left to merge,
+//   until that saves less than a triangle in fifty; by what ITS says of it, it grows with the error, too, but
+//   what lies on one plane is then joined over any distance before edges are, and ends with more triangles. A
+//   merge without an edge may change the area around it by area_tolerance of itself, and by no more than a
+//   disc of the pair distance.
 //   - Gamma is sqrt(Q / S) with quadrics weighted by area, so that it is a length.
 #pragma once
 

@@ -11,9 +11,9 @@ namespace coppice {
 
 namespace {
 
-constexpr size_t most_pairs = 16;        // of a vertex
+constexpr size_t most_pairs = 8;         // of a vertex
 constexpr uint32_t most_looked_at = 64;  // in a bucket
-constexpr size_t crowded = 16;           // vertices of a cell, in the mean
+constexpr size_t crowded = 4;            // vertices of a cell, in the mean
 // Coordinates of cells in the box take 20 bits, with room for what lies a little outside.
 constexpr double most_cells_across = 1 << 20;
 constexpr int64_t outside = 1 << 16;

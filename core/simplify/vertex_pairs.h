@@ -31,7 +31,7 @@ class VertexPairs {
     bool contains(uint32_t vertex) const { return cells_[vertex] < gone; }
     bool has_contained(uint32_t vertex) const { return cells_[vertex] != never; }
 
-    // Appends the vertices that are paired with this one, 16 at most, the nearest first. `out` holds those
+    // Appends the vertices that are paired with this one, 8 at most, the nearest first. `out` holds those
     // that an edge leads to, which are none of them.
     void append(uint32_t vertex, std::vector<uint32_t>& out) const;
 

@@ -77,7 +77,7 @@ TEST(VertexPairs, are_those_that_a_search_of_all_finds) {
             std::stable_sort(expected.begin(), expected.end(), [&](uint32_t a, uint32_t b) {
                 return pairs.distance(v, a) < pairs.distance(v, b);
             });
-            if (expected.size() > 16) expected.resize(16);
+            if (expected.size() > 8) expected.resize(8);
             const std::vector<uint32_t> found = pairs.of(v);
             ASSERT_EQ(found.empty(), expected.empty()) << distance;
             if (distance < 0.1) {
@@ -114,7 +114,7 @@ TEST(VertexPairs, are_on_borders_alone) {
 TEST(VertexPairs, are_found_in_bounded_time_where_all_are_in_one_place) {
     const Mesh mesh = confetti(20000);
     const Pairs pairs(mesh, 100);
-    for (uint32_t v = 0; v < pairs.vertex_count(); ++v) ASSERT_LE(pairs.of(v).size(), 16U);
+    for (uint32_t v = 0; v < pairs.vertex_count(); ++v) ASSERT_LE(pairs.of(v).size(), 8U);
 }
 
 constexpr size_t tiles_alone = 64;  // triangles of shapes::tiles() once nothing but edges is left to collapse
