@@ -162,12 +162,12 @@ Mesh tiles(Tiles shape) {
     Builder builder;
     builder.uvs = shape.uvs;
     for (uint32_t tile = 0; tile < shape.columns * shape.rows; ++tile) {
-        const double left = tile % shape.columns, near = tile / shape.columns;
+        const uint32_t column = tile % shape.columns, row = tile / shape.columns;
         tile_grid(builder, shape.cells, shape.cells, [&](uint32_t i, uint32_t j) {
             Point p;
             p.u = static_cast<double>(i) / shape.cells;
             p.v = static_cast<double>(j) / shape.cells;
-            p.position = {left + p.u * (1 - shape.gap), 0, near + p.v * (1 - shape.gap)};
+            p.position = {column + p.u * (1 - shape.gap), 0, row + p.v * (1 - shape.gap)};
             return p;
         });
     }
