@@ -35,6 +35,10 @@ void check_modes(const Algorithm& algorithm, const ParameterValues& values, cons
                 "parameters.{} belongs to parameters.{}={}, and the {} is {}", rule.parameter, rule.choice,
                 rule.value, rule.choice, chosen(values, rule.choice));
     }
+    const std::optional<Length> pair_distance = values.length("pair_distance");
+    require(!options.parameters.contains("area_tolerance") || pair_distance->value > 0,
+            ErrorCode::option_conflict, "parameters.area_tolerance",
+            "parameters.area_tolerance belongs to a parameters.pair_distance over 0, and it is 0");
     const bool names_two = values.all().contains("xyz") && values.all().contains("codebook_size");
     require(
         !names_two, ErrorCode::option_conflict, "parameters.codebook_size",

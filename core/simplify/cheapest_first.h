@@ -54,12 +54,7 @@ class CheapestFirst {
         uint64_t collapses = 0;
         do {
             queue_all();
-            collapses = 0;
-            for (uint64_t step = 0; !empty() && !work_.done(); ++step) {
-                if (step % 16 == 0) watch_.check();
-                if (step % 512 == 0) watch_.report(work_.fraction());
-                collapses += try_cheapest();
-            }
+            collapses = drain();
         } while (!work_.done() && collapses > mesh_.live_vertices() / 1000);
     }
 
@@ -71,6 +66,18 @@ class CheapestFirst {
             if (mesh_.is_live_vertex(v)) queue(v, work_.next_candidate(v, {}));
         }
     }
+    // One round: until the work is done or nothing is left in the queue. Returns how often it collapsed.
+    uint64_t drain() {
+        uint64_t collapses = 0;
+        for (uint64_t step = 0; !empty() && !work_.done(); ++step) {
+            if (step % 16 == 0) watch_.check();
+            if (step % 512 == 0) watch_.report(work_.fraction());
+            collapses += try_cheapest();
+        }
+        return collapses;
+    }
+    // For a vertex whose surroundings have changed otherwise than by a collapse.
+    void queue_again(uint32_t vertex) { queue(vertex, work_.next_candidate(vertex, {})); }
     bool empty() const { return heap_.empty(); }
     double cheapest() const { return heap_.top_key(); }
 

@@ -33,6 +33,7 @@ struct CollapseParts {
     std::span<const FeatureEdge> features;
     AttributeClouds& clouds;
     Projection& projection;  // scratch
+    bool joins = false;      // lines may end where parts are joined
 };
 
 class CollapseError {
@@ -43,19 +44,22 @@ class CollapseError {
     CollapseError& operator=(const CollapseError&) = delete;
 
     // Where `removed` and `kept` are best merged, and what that costs; none beyond a limit of the error's
-    // own. end_point: at `kept`. wedge_map as WedgeMap gives it for the pair.
-    virtual std::optional<Placed> place(uint32_t removed, uint32_t kept, Freedom freedom,
+    // own. end_point: at `kept`. joins: no edge leads from one to the other; what holds the borders there may
+    // end, so it says where, but costs nothing. wedge_map as WedgeMap gives it for the pair.
+    virtual std::optional<Placed> place(uint32_t removed, uint32_t kept, Freedom freedom, bool joins,
                                         const std::vector<uint32_t>& wedge_map) const = 0;
     // To be called with every collapse, before the mesh changes; the clouds' values at `kept` are the new
     // ones.
     virtual void merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) = 0;
+    // To be called after a join, for each vertex whose lines it has changed, with those that are left there.
+    virtual void set_lines(uint32_t /*vertex*/, std::span<const FeatureEdge> /*edges*/) {}
 };
 
 // For who ranks edges otherwise: the rules alone say which collapses there are.
 class NoError final : public CollapseError {
   public:
     explicit NoError(const CollapseMesh& mesh) : mesh_(mesh) {}
-    std::optional<Placed> place(uint32_t, uint32_t kept, Freedom,
+    std::optional<Placed> place(uint32_t, uint32_t kept, Freedom, bool,
                                 const std::vector<uint32_t>&) const override {
         return Placed{mesh_.position(kept), 0};
     }

@@ -81,6 +81,11 @@ CollapseRules::CollapseRules(const CollapseMesh& mesh, std::vector<VertexKind> k
     facing_ = facings(mesh, first_normals_, watch);
 }
 
+bool CollapseRules::kinds_allow_join(uint32_t removed, uint32_t kept) const {
+    return std::max(mesh_.valence(removed), mesh_.valence(kept)) <= largest_removable_valence &&
+           allows(kinds_[removed], kinds_[kept]);
+}
+
 bool CollapseRules::kinds_allow(uint32_t removed, uint32_t kept, const Neighbours& around) const {
     if (mesh_.valence(removed) > largest_removable_valence) return false;
     if (!allows(kinds_[removed], kinds_[kept])) return false;
@@ -108,8 +113,9 @@ Refusal CollapseRules::check(uint32_t removed, uint32_t kept) {
     return Refusal::none;
 }
 
-bool CollapseRules::keeps_topology(uint32_t removed, uint32_t kept) {
+bool CollapseRules::keeps_topology(uint32_t removed, uint32_t kept, bool joins) {
     around_removed_.gather(mesh_, removed);
+    zipped_.clear();
     shared_.assign(around_removed_.all().size(), 0);
     for (uint32_t c = mesh_.first_corner(removed); c != no_index; c = mesh_.corner_after(c)) {
         const uint32_t a = mesh_.corner_vertex(CollapseMesh::next_corner(c));
@@ -126,12 +132,46 @@ bool CollapseRules::keeps_topology(uint32_t removed, uint32_t kept) {
             return false;  // two hubs: too long to search
         const uint32_t to_kept = edge_uses(x, kept, gather_kept);
         if (to_kept == 0) continue;
-        if (shared_[i] == 0) return false;
+        if (shared_[i] == 0) {
+            if (!joins || !closes_border(removed, kept, x)) return false;
+            zipped_.push_back(x);
+        }
         const uint32_t to_removed = around_removed_.uses(x);
         const uint32_t after = to_removed + to_kept - 2 * shared_[i];
         if (after == 0 || after > std::max({2U, to_removed, to_kept})) return false;
     }
     return !duplicates(removed, kept);
+}
+
+CollapseRules::Spoke CollapseRules::spoke(uint32_t vertex, uint32_t neighbour) const {
+    for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c)) {
+        const uint32_t next = CollapseMesh::next_corner(c), previous = CollapseMesh::previous_corner(c);
+        if (mesh_.corner_vertex(next) == neighbour)
+            return {true, mesh_.wedge_chart(mesh_.corner_wedge(next))};
+        if (mesh_.corner_vertex(previous) == neighbour)
+            return {false, mesh_.wedge_chart(mesh_.corner_wedge(previous))};
+    }
+    return {};
+}
+
+// Whether the edges to both would lie on each other as sides of one surface. How many triangles they have is
+// for the caller.
+bool CollapseRules::closes_border(uint32_t removed, uint32_t kept, uint32_t common) const {
+    const Spoke one = spoke(removed, common), other = spoke(kept, common);
+    return one.runs_outwards != other.runs_outwards && one.chart == other.chart;
+}
+
+bool CollapseRules::closes_or_leads_on(uint32_t removed, uint32_t kept, double distance) const {
+    if (!zipped_.empty()) return true;
+    for (const uint32_t x : around_removed_.all()) {
+        if (around_removed_.uses(x) != 1) continue;
+        for (const uint32_t y : around_kept_.all()) {
+            if (around_kept_.uses(y) != 1 || length(mesh_.position(x) - mesh_.position(y)) > distance)
+                continue;
+            if (spoke(removed, x).runs_outwards != spoke(kept, y).runs_outwards) return true;
+        }
+    }
+    return false;
 }
 
 // Triangles at the edge from `kept` to a vertex.
@@ -162,11 +202,14 @@ bool CollapseRules::has_triangle(std::array<uint32_t, 3> corners) {
 
 // Whether a triangle that moves would land on one that is there, in either orientation.
 bool CollapseRules::duplicates(uint32_t removed, uint32_t kept) {
+    const auto is_common = [this](uint32_t v) {
+        return shared_[around_removed_.find(v)] > 0 ||
+               std::find(zipped_.begin(), zipped_.end(), v) != zipped_.end();
+    };
     for (uint32_t c = mesh_.first_corner(removed); c != no_index; c = mesh_.corner_after(c)) {
         const uint32_t a = mesh_.corner_vertex(CollapseMesh::next_corner(c));
         const uint32_t b = mesh_.corner_vertex(CollapseMesh::previous_corner(c));
-        if (a == kept || b == kept) continue;
-        if (shared_[around_removed_.find(a)] == 0 || shared_[around_removed_.find(b)] == 0) continue;
+        if (a == kept || b == kept || !is_common(a) || !is_common(b)) continue;
         if (has_triangle({kept, a, b})) return true;
     }
     return false;

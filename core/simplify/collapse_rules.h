@@ -56,6 +56,7 @@ class CollapseRules {
     std::optional<Vec3f> normal_of_filling(const std::array<uint32_t, 3>& vertices, Vec3f facing) const;
 
     VertexKind kind(uint32_t vertex) const { return kinds_[vertex]; }
+    void set_kind(uint32_t vertex, VertexKind kind) { kinds_[vertex] = kind; }
     // Where the surface faced at a vertex at the start. Of one that stands for several now, their mean.
     Vec3f facing(uint32_t vertex) const { return facing_[vertex]; }
     void set_facing(uint32_t vertex, Vec3f facing) { facing_[vertex] = facing; }
@@ -63,14 +64,29 @@ class CollapseRules {
     // Of each triangle at the start: unit, zero where it had no area.
     const std::vector<Vec3f>& first_normals() const { return first_normals_; }
 
-    // The first part of check().
-    bool keeps_topology(uint32_t removed, uint32_t kept);
+    // The first part of check(). joins: no edge leads from one to the other. Then neighbours of both must be
+    // where two borders become one edge inside the surface, with the same chart on both sides.
+    bool keeps_topology(uint32_t removed, uint32_t kept, bool joins = false);
+    // Those neighbours, after keeps_topology() has let a join through.
+    const std::vector<uint32_t>& zipped() const { return zipped_; }
+    // Whether a join closes a border, or could be followed by one that does: where borders of both run along
+    // each other, no farther apart than the distance. Else two parts would touch in a vertex, which holds
+    // both and saves no triangle. After keeps_topology().
+    bool closes_or_leads_on(uint32_t removed, uint32_t kept, double distance) const;
+    // The first part of kinds_allow(), all that there is for a join.
+    bool kinds_allow_join(uint32_t removed, uint32_t kept) const;
 
     // In either orientation. True, too, where all three have too many triangles to search.
     bool has_triangle(std::array<uint32_t, 3> corners);
 
   private:
     bool duplicates(uint32_t removed, uint32_t kept);
+    struct Spoke {
+        bool runs_outwards = false;  // in one of its triangles
+        uint32_t chart = no_index;   // there, at the far end
+    };
+    Spoke spoke(uint32_t vertex, uint32_t neighbour) const;
+    bool closes_border(uint32_t removed, uint32_t kept, uint32_t common) const;
     bool keeps_orientation(uint32_t removed, uint32_t kept) const;
     uint32_t edge_uses(uint32_t vertex, uint32_t kept, bool ring_gathered);
 
@@ -80,6 +96,7 @@ class CollapseRules {
     std::vector<Vec3f> facing_;         // per vertex, where the surface faced at the start; see facing()
     Neighbours around_removed_, around_kept_;
     std::vector<uint32_t> shared_;  // per neighbour of `removed`: triangles that also hold `kept`
+    std::vector<uint32_t> zipped_;  // see zipped()
     uint64_t searched_ = 0;
 };
 

@@ -1,6 +1,8 @@
 #include "core/simplify/edge_collapse.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace coppice {
 
@@ -12,12 +14,16 @@ EdgeCollapse::EdgeCollapse(const Mesh& source, const Target& target, const Colla
       options_(options),
       clouds_(mesh_, source, options.scales, watch),
       projection_(mesh_),
-      error_(make_error({mesh_, features_.edges, clouds_, projection_})),
+      error_(make_error({mesh_, features_.edges, clouds_, projection_, options.pair_distance > 0})),
       wedge_map_(mesh_, clouds_),
       values_(source, mesh_.wedge_sources()),
       around_(mesh_.vertex_count(), watch),
       around_other_(mesh_.vertex_count(), watch) {
     watch.check();
+    if (!(options.pair_distance > 0)) return;
+    joins_ = std::make_unique<Joins>(
+        Joins{VertexPairs(mesh_, features_.edges, watch), VertexClassifier(mesh_, watch)});
+    set_pair_distance(options.pair_distance, watch);
 }
 
 // Where the shading has an edge that the texture has not, what moves would get as many texture coordinates as
@@ -30,13 +36,34 @@ bool EdgeCollapse::parts_texture(uint32_t vertex) const {
 }
 
 Freedom EdgeCollapse::freedom_between(uint32_t a, uint32_t b) const {
-    const VertexKind kind = features_.kinds[a];
-    if (kind != features_.kinds[b] || parts_texture(a) || parts_texture(b)) return Freedom::end_point;
+    const VertexKind kind = this->kind(a);
+    if (kind != this->kind(b) || parts_texture(a) || parts_texture(b)) return Freedom::end_point;
     if (kind == VertexKind::manifold) return options_.freedom;
     return is_on_line(a) ? std::min(options_.freedom, Freedom::segment) : Freedom::end_point;
 }
 
-bool EdgeCollapse::allowed(uint32_t removed, uint32_t kept, bool ring_gathered) {
+// With pairs, two vertices may be asked for that were one's candidate and the other has changed since.
+EdgeCollapse::Tie EdgeCollapse::tie_between(uint32_t a, uint32_t b) const {
+    if (!joins_ || !joins_->pairs.has_contained(a) || !joins_->pairs.has_contained(b)) return Tie::edge;
+    if (!mesh_.is_live_vertex(a) || !mesh_.is_live_vertex(b)) return Tie::none;
+    if (mesh_.valence(a) > mesh_.valence(b)) std::swap(a, b);
+    if (mesh_.valence(a) > largest_removable_valence) return Tie::edge;  // neither goes
+    for (uint32_t c = mesh_.first_corner(a); c != no_index; c = mesh_.corner_after(c)) {
+        if (mesh_.corner_vertex(CollapseMesh::next_corner(c)) == b ||
+            mesh_.corner_vertex(CollapseMesh::previous_corner(c)) == b)
+            return Tie::edge;
+    }
+    const double distance = length(mesh_.position(a) - mesh_.position(b));
+    const bool near = is_paired(a) && is_paired(b) && distance <= joins_->pairs.distance();
+    return near ? Tie::nearness : Tie::none;
+}
+
+bool EdgeCollapse::find_wedges(uint32_t removed, uint32_t kept, Tie tie) {
+    return tie == Tie::edge ? wedge_map_.find(removed, kept) : wedge_map_.find_across(removed, kept, values_);
+}
+
+bool EdgeCollapse::allowed(uint32_t removed, uint32_t kept, Tie tie, bool ring_gathered) {
+    if (tie == Tie::nearness) return rules_.kinds_allow_join(removed, kept);
     if (!rules_.reads_neighbours(removed)) return rules_.kinds_allow(removed, kept, around_);
     if (ring_gathered) return rules_.kinds_allow(removed, kept, around_);
     if (mesh_.valence(removed) > largest_removable_valence) return false;
@@ -44,25 +71,28 @@ bool EdgeCollapse::allowed(uint32_t removed, uint32_t kept, bool ring_gathered) 
     return rules_.kinds_allow(removed, kept, around_other_);
 }
 
-std::optional<EdgeCollapse::Merge> EdgeCollapse::place(uint32_t removed, uint32_t kept, Freedom freedom) {
+std::optional<EdgeCollapse::Merge> EdgeCollapse::place(uint32_t removed, uint32_t kept, Tie tie,
+                                                       Freedom freedom) {
     steps_.add(mesh_.valence(removed));
-    if (!wedge_map_.find(removed, kept)) {
+    if (!find_wedges(removed, kept, tie)) {
         refusals_.add(Refusal::locked);
         return {};
     }
-    const std::optional<Placed> placed = error_->place(removed, kept, freedom, wedge_map_.wedges());
+    const std::optional<Placed> placed =
+        error_->place(removed, kept, freedom, tie == Tie::nearness, wedge_map_.wedges());
     if (!placed) {
         refusals_.add_beyond_threshold();
         return {};
     }
-    return Merge{removed, kept, *placed, !(placed->at == mesh_.position(kept))};
+    const bool moves = tie == Tie::nearness || !(placed->at == mesh_.position(kept));
+    return Merge{removed, kept, *placed, moves, tie};
 }
 
 // around_ holds the owner's ring, if ring_gathered.
-std::optional<EdgeCollapse::Merge> EdgeCollapse::best_merge(uint32_t owner, uint32_t other,
+std::optional<EdgeCollapse::Merge> EdgeCollapse::best_merge(uint32_t owner, uint32_t other, Tie tie,
                                                             bool ring_gathered) {
-    const bool forward = allowed(owner, other, ring_gathered);
-    const bool backward = options_.freedom != Freedom::end_point && allowed(other, owner, false);
+    const bool forward = allowed(owner, other, tie, ring_gathered);
+    const bool backward = options_.freedom != Freedom::end_point && allowed(other, owner, tie, false);
     if (!forward && !backward) {
         refusals_.add(Refusal::locked);
         return {};
@@ -70,12 +100,12 @@ std::optional<EdgeCollapse::Merge> EdgeCollapse::best_merge(uint32_t owner, uint
     const Freedom freedom = freedom_between(owner, other);
     if (freedom != Freedom::end_point && forward && backward) {
         const bool owner_goes = mesh_.valence(owner) <= mesh_.valence(other);
-        return owner_goes ? place(owner, other, freedom) : place(other, owner, freedom);
+        return owner_goes ? place(owner, other, tie, freedom) : place(other, owner, tie, freedom);
     }
     std::optional<Merge> best;
-    if (forward) best = place(owner, other, Freedom::end_point);
+    if (forward) best = place(owner, other, tie, Freedom::end_point);
     if (backward) {
-        const std::optional<Merge> back = place(other, owner, Freedom::end_point);
+        const std::optional<Merge> back = place(other, owner, tie, Freedom::end_point);
         if (back && (!best || back->placed.error < best->placed.error)) best = back;
     }
     return best;
@@ -83,14 +113,16 @@ std::optional<EdgeCollapse::Merge> EdgeCollapse::best_merge(uint32_t owner, uint
 
 std::optional<double> EdgeCollapse::cost(uint32_t owner, uint32_t other) {
     if (options_.freedom != Freedom::end_point && other < owner) return {};
-    const std::optional<Merge> merge = best_merge(owner, other, false);
+    const Tie tie = tie_between(owner, other);
+    if (tie == Tie::none) return {};
+    const std::optional<Merge> merge = best_merge(owner, other, tie, false);
     return merge ? std::optional(merge->placed.error) : std::nullopt;
 }
 
 // Around a vertex inside the surface each neighbour comes next at one corner, so none has to be looked for.
-void EdgeCollapse::ring(uint32_t vertex, std::vector<uint32_t>& out) {
+void EdgeCollapse::neighbours(uint32_t vertex, std::vector<uint32_t>& out) {
     out.clear();
-    if (features_.kinds[vertex] == VertexKind::manifold) {
+    if (kind(vertex) == VertexKind::manifold) {
         for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c))
             out.push_back(mesh_.corner_vertex(CollapseMesh::next_corner(c)));
         return;
@@ -99,17 +131,26 @@ void EdgeCollapse::ring(uint32_t vertex, std::vector<uint32_t>& out) {
     out = around_other_.all();
 }
 
+void EdgeCollapse::ring(uint32_t vertex, std::vector<uint32_t>& out) {
+    neighbours(vertex, out);
+    if (joins_) joins_->pairs.append(vertex, out);
+}
+
 Candidate EdgeCollapse::next_candidate(uint32_t owner, std::optional<Candidate> after) {
     if (mesh_.valence(owner) > largest_removable_valence) {
         refusals_.add(Refusal::locked);
         return {};
     }
     if (rules_.reads_neighbours(owner)) around_.gather(mesh_, owner);
-    ring(owner, ring_);
+    neighbours(owner, ring_);
+    const size_t edges = ring_.size();
+    if (joins_) joins_->pairs.append(owner, ring_);
     Candidate best;
-    for (const uint32_t other : ring_) {
+    for (size_t i = 0; i < ring_.size(); ++i) {
+        const uint32_t other = ring_[i];
         if (options_.freedom != Freedom::end_point && other < owner) continue;
-        const std::optional<Merge> merge = best_merge(owner, other, true);
+        const std::optional<Merge> merge =
+            best_merge(owner, other, i < edges ? Tie::edge : Tie::nearness, true);
         if (!merge) continue;
         const Candidate candidate = {other, merge->placed.error};
         if (after && !(*after < candidate)) continue;
@@ -119,7 +160,7 @@ Candidate EdgeCollapse::next_candidate(uint32_t owner, std::optional<Candidate> 
 }
 
 Refusal EdgeCollapse::check(const Merge& m) {
-    if (!wedge_map_.find(m.removed, m.kept)) return Refusal::locked;
+    if (!find_wedges(m.removed, m.kept, m.tie)) return Refusal::locked;
     const Refusal refusal = m.moves ? check_move(m) : check_end_point(m.removed, m.kept);
     if (refusal != Refusal::none) return refusal;
     next_deviation_ = m.moves ? deviation(m) : deviation_.after(m.removed, m.kept);
@@ -136,11 +177,38 @@ Refusal EdgeCollapse::check_end_point(uint32_t removed, uint32_t kept) {
 Refusal EdgeCollapse::check_move(const Merge& m) {
     const std::array<uint32_t, 2> ends = {m.removed, m.kept};
     if (!bounds_.may_merge(ends, m.placed.at)) return Refusal::bounds;
-    if (is_on_line(m.kept) && !lines_.may_merge(ends, m.placed.at)) return Refusal::topology;
+    if (!lines_allow(m)) return Refusal::topology;
     if (has_values_) projection_.project(m.removed, m.kept, wedge_map_.wedges(), m.placed.at);
-    if (!rules_.keeps_topology(m.removed, m.kept)) return Refusal::topology;
+    if (!rules_.keeps_topology(m.removed, m.kept, m.tie == Tie::nearness)) return Refusal::topology;
+    if (m.tie == Tie::nearness && !may_join(m)) return Refusal::topology;
     const bool sound = may_move_fan(m.removed, m.kept, m) && may_move_fan(m.kept, m.removed, m);
     return sound ? Refusal::none : Refusal::topology;
+}
+
+bool EdgeCollapse::lines_allow(const Merge& m) const {
+    const std::array<uint32_t, 2> ends = {m.removed, m.kept};
+    if (m.tie == Tie::nearness) return lines_.may_join(ends, m.placed.at);
+    return !is_on_line(m.kept) || lines_.may_merge(ends, m.placed.at);
+}
+
+bool EdgeCollapse::may_join(const Merge& m) const {
+    return rules_.closes_or_leads_on(m.removed, m.kept, joins_->pairs.distance()) && keeps_area(m);
+}
+
+// Of a join, after which all triangles are still there.
+bool EdgeCollapse::keeps_area(const Merge& m) const {
+    if (!options_.area_tolerance) return true;
+    double before = 0, after = 0;
+    for (const uint32_t vertex : {m.removed, m.kept}) {
+        for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c)) {
+            const Vec3d a = mesh_.position(mesh_.corner_vertex(CollapseMesh::next_corner(c)));
+            const Vec3d b = mesh_.position(mesh_.corner_vertex(CollapseMesh::previous_corner(c)));
+            before += 0.5 * length(area_normal(mesh_.position(vertex), a, b));
+            after += 0.5 * length(area_normal(m.placed.at, a, b));
+        }
+    }
+    const double disc = std::numbers::pi * joins_->pairs.distance() * joins_->pairs.distance();
+    return std::abs(after - before) <= std::min(*options_.area_tolerance * before, disc);
 }
 
 // The triangles at one end that are not at the other: none may be turned over, in space or in its texture.
@@ -170,6 +238,9 @@ Vec3f EdgeCollapse::mean_facing(const Merge& m) const {
 double EdgeCollapse::deviation(const Merge& m) const {
     const Vec3d p = mesh_.position(m.removed), q = mesh_.position(m.kept), at = m.placed.at;
     double from_p = length(p - at), from_q = length(q - at);
+    // A gap that closes is as far from the surface that was there.
+    if (m.tie == Tie::nearness)
+        return std::max(deviation_.carried(m.removed) + from_p, deviation_.carried(m.kept) + from_q);
     for (const auto& [vertex, other] : {std::pair(m.removed, m.kept), std::pair(m.kept, m.removed)}) {
         for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c)) {
             const uint32_t a = mesh_.corner_vertex(CollapseMesh::next_corner(c));
@@ -199,7 +270,11 @@ void EdgeCollapse::apply(const Merge& m) {
     const std::array<uint32_t, 2> ends = {m.removed, m.kept};
     if (m.moves) {
         bounds_.merge(ends, m.kept, m.placed.at);
-        if (is_on_line(m.kept)) lines_.merge(ends, m.kept, m.placed.at);
+        if (m.tie == Tie::nearness) {
+            lines_.join(ends, m.kept, m.placed.at);
+        } else if (is_on_line(m.kept)) {
+            lines_.merge(ends, m.kept, m.placed.at);
+        }
         rules_.set_facing(m.kept, mean_facing(m));
     } else {
         bounds_.remove(m.removed);
@@ -207,16 +282,40 @@ void EdgeCollapse::apply(const Merge& m) {
     }
     mesh_.collapse(m.removed, m.kept, wedge_map_.wedges());
     if (m.moves) mesh_.move(m.kept, m.placed.at);
+    if (joins_) settle_pairs(m);
+}
+
+// A join changes what the surface is like at the vertex that stays and wherever a border closed.
+void EdgeCollapse::settle_pairs(const Merge& m) {
+    joins_->pairs.erase(m.removed);
+    if (m.moves) joins_->pairs.move(m.kept);
+    if (m.tie == Tie::edge) return;
+    settle(m.kept);
+    for (const uint32_t vertex : rules_.zipped()) settle(vertex);
+}
+
+void EdgeCollapse::settle(uint32_t vertex) {
+    auto& [pairs, classifier, lines] = *joins_;
+    rules_.set_kind(vertex, classifier.classify(vertex));
+    lines.clear();
+    classifier.append_lines(vertex, lines);
+    error_->set_lines(vertex, lines);
+    lines_.set_line(vertex, is_on_line(vertex) ? classifier.line_neighbours() : std::vector<uint32_t>());
+    const bool has_border =
+        std::any_of(lines.begin(), lines.end(), [](const FeatureEdge& edge) { return edge.is_border; });
+    if (!has_border) pairs.erase(vertex);
 }
 
 // What an end point costs does not matter any more.
-std::optional<EdgeCollapse::Merge> EdgeCollapse::merge_again(uint32_t owner, uint32_t other) {
-    if (options_.freedom != Freedom::end_point) return best_merge(owner, other, false);
-    return Merge{owner, other, {mesh_.position(other), 0}, false};
+std::optional<EdgeCollapse::Merge> EdgeCollapse::merge_again(uint32_t owner, uint32_t other, Tie tie) {
+    if (options_.freedom != Freedom::end_point) return best_merge(owner, other, tie, false);
+    return Merge{owner, other, {mesh_.position(other), 0}, tie == Tie::nearness, tie};
 }
 
 std::optional<Collapsed> EdgeCollapse::try_collapse(uint32_t owner, uint32_t other) {
-    const std::optional<Merge> merge = merge_again(owner, other);
+    const Tie tie = tie_between(owner, other);
+    if (tie == Tie::none) return {};
+    const std::optional<Merge> merge = merge_again(owner, other, tie);
     if (!merge) return {};
     const uint64_t searched = rules_.searched();
     const Refusal refusal = check(*merge);
@@ -231,11 +330,11 @@ std::optional<Collapsed> EdgeCollapse::try_collapse(uint32_t owner, uint32_t oth
 }
 
 bool EdgeCollapse::may_collapse(uint32_t removed, uint32_t kept) {
-    if (!allowed(removed, kept, false)) {
+    if (!allowed(removed, kept, Tie::edge, false)) {
         refusals_.add(Refusal::locked);
         return false;
     }
-    const Refusal refusal = check({removed, kept, {mesh_.position(kept), 0}, false});
+    const Refusal refusal = check({removed, kept, {mesh_.position(kept), 0}});
     if (refusal != Refusal::none) refusals_.add(refusal);
     return refusal == Refusal::none;
 }

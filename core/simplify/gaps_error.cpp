@@ -21,13 +21,14 @@ GapsError::GapsError(const CollapseParts& parts, const PlaneOptions& options, co
     });
 }
 
-std::optional<Placed> GapsError::place(uint32_t removed, uint32_t kept, Freedom freedom,
+std::optional<Placed> GapsError::place(uint32_t removed, uint32_t kept, Freedom freedom, bool joins,
                                        const std::vector<uint32_t>& wedge_map) const {
     const Vec3d a = mesh_.position(removed), b = mesh_.position(kept);
     const Quadric q = planes_.sum(removed, kept);
     const Vec3d at = least_point(q, a, b, freedom);
     const double area = planes_.weight(removed, kept);
-    const double mean_square = (area > 0 ? q(at) / area : 0) + flat_preference * squared_length(a - b);
+    const double squared = joins ? planes_.sum_of_triangles(removed, kept)(at) : q(at);
+    const double mean_square = (area > 0 ? squared / area : 0) + flat_preference * squared_length(a - b);
     double sum = area * std::sqrt(mean_square), weights = area;
     if (channels_ > 0) projection_.project(removed, kept, wedge_map, at);
     for (uint32_t k = 0; k < channels_; ++k) {

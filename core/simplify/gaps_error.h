@@ -19,9 +19,12 @@ class GapsError final : public CollapseError {
   public:
     GapsError(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch);
 
-    std::optional<Placed> place(uint32_t removed, uint32_t kept, Freedom freedom,
+    std::optional<Placed> place(uint32_t removed, uint32_t kept, Freedom freedom, bool joins,
                                 const std::vector<uint32_t>& wedge_map) const override;
     void merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) override;
+    void set_lines(uint32_t vertex, std::span<const FeatureEdge> edges) override {
+        planes_.set_lines(vertex, edges);
+    }
 
   private:
     // Of one attribute: how far all clouds of both ends are from what their wedges get.

@@ -19,7 +19,10 @@
 //   of the tessellation (the authors' own later choice, 1998). none is the paper's.
 //   - Planes across borders weigh boundary_weight times the edge's squared length, as the paper proposes
 //   without a number.
-//   - Only edges are pairs, as with the paper's t = 0.
+//   - Only edges are pairs by default, as with the paper's t = 0. With a pair_distance, vertices of open
+//   borders are pairs, too (vertex_pairs.h), and of those the ones whose merging gives no edge a third
+//   triangle and agrees with all values but normals and colours (edge_collapse.h). So closed parts are not
+//   joined: the paper lets them, and gets edges of four triangles.
 //   - On flat ground, where all costs are 0, short edges go first.
 #pragma once
 

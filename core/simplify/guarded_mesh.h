@@ -54,7 +54,7 @@ class GuardedMesh {
     const Mesh& source_;
     const Target& target_;
     CollapseMesh mesh_;
-    Features features_;
+    Features features_;  // at the start; what a vertex is like now: kind()
     CollapseRules rules_;
     BoundsGuard bounds_;
     LineGuard lines_;

@@ -133,6 +133,43 @@ void LineGuard::merge(std::span<const uint32_t> vertices, uint32_t kept, Vec3d p
         next_[kept][side] = {found->beyond[side].vertex, found->away};
 }
 
+// A new edge is at most as far from the old one as the end that has moved.
+double LineGuard::away_joined(std::span<const uint32_t> vertices, Vec3d point) const {
+    double away = 0;
+    for (const uint32_t v : vertices) {
+        const double moved = on_line_[v] ? length(mesh_.position(v) - point) : 0;
+        for (const Next& next : next_[v]) away = std::max(away, next.away + moved);
+    }
+    return away;
+}
+
+void LineGuard::join(std::span<const uint32_t> vertices, uint32_t kept, Vec3d point) {
+    const double away = away_joined(vertices, point);
+    for (const uint32_t v : vertices) {
+        if (!on_line_[v]) continue;
+        for (const Next& next : next_[v]) {
+            if (next.vertex == no_index) continue;
+            relink(next.vertex, v, {kept, next.away + length(mesh_.position(v) - point)});
+        }
+    }
+    next_[kept] = {{{no_index, away}, {no_index, away}}};
+}
+
+void LineGuard::set_line(uint32_t vertex, std::span<const uint32_t> neighbours) {
+    // Where a neighbour is on no line, nobody knows how far that edge is away: as far as any here.
+    const double away = std::max(next_[vertex][0].away, next_[vertex][1].away);
+    next_[vertex] = {{{no_index, away}, {no_index, away}}};
+    on_line_[vertex] = !neighbours.empty();
+    if (neighbours.empty()) return;
+    for (const size_t side : {size_t{0}, size_t{1}}) {
+        const uint32_t v = neighbours[side];
+        next_[vertex][side].vertex = v;
+        if (!on_line_[v]) continue;
+        for (const Next& back : next_[v])
+            if (back.vertex == vertex) next_[vertex][side].away = back.away;
+    }
+}
+
 void LineGuard::relink(uint32_t vertex, uint32_t from, Next to) {
     if (!on_line_[vertex]) return;
     for (Next& next : next_[vertex])

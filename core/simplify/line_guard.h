@@ -36,6 +36,15 @@ class LineGuard {
     bool may_merge(std::span<const uint32_t> vertices, Vec3d point) const;
     void merge(std::span<const uint32_t> vertices, uint32_t kept, Vec3d point);
 
+    // The same for vertices of several lines, or of none, that become one anywhere. What goes through the
+    // vertex that stays is to be told then, and for all other vertices whose edges became one: the two
+    // neighbours along the line, or none where no line goes through it any more.
+    bool may_join(std::span<const uint32_t> vertices, Vec3d point) const {
+        return away_joined(vertices, point) <= tolerance_;
+    }
+    void join(std::span<const uint32_t> vertices, uint32_t kept, Vec3d point);
+    void set_line(uint32_t vertex, std::span<const uint32_t> neighbours);
+
   private:
     // Where the line goes from a vertex, and a bound on how far that edge is from the original line.
     struct Next {
@@ -55,12 +64,13 @@ class LineGuard {
     // The neighbours of `removed` with `kept` first; none where they are no neighbours on a line.
     std::optional<Both> along(uint32_t removed, uint32_t kept) const;
     double away_without(uint32_t removed, const Both& ends) const;
+    double away_joined(std::span<const uint32_t> vertices, Vec3d point) const;
     void relink(uint32_t vertex, uint32_t from, Next to);
 
     const CollapseMesh& mesh_;
     double tolerance_;
     std::vector<bool> on_line_;  // per vertex: a border or a seam passes through it
-    std::vector<Both> next_;     // per vertex; of those alone
+    std::vector<Both> next_;     // per vertex; of those alone, but `away` of any
 };
 
 }  // namespace coppice

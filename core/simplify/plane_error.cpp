@@ -62,20 +62,24 @@ Vec3d least_point(const Quadric& q, Vec3d a, Vec3d b, Freedom freedom) {
 }
 
 PlaneQuadrics::PlaneQuadrics(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch)
-    : quadrics_(parts.mesh.vertex_count()), weights_(parts.mesh.vertex_count(), 0.0) {
-    add_triangles(parts.mesh, options, watch);
-    add_lines(parts, options, watch);
+    : mesh_(parts.mesh),
+      options_(options),
+      quadrics_(parts.mesh.vertex_count()),
+      weights_(parts.mesh.vertex_count(), 0.0),
+      line_of_(watched_vector(parts.joins ? parts.mesh.vertex_count() : 0, watch, no_index)) {
+    add_triangles(watch);
+    add_lines(parts.features, watch);
 }
 
-void PlaneQuadrics::add_triangles(const CollapseMesh& mesh, const PlaneOptions& options, const Watch& watch) {
-    for_each_triangle(mesh, watch, [&](uint32_t, const std::array<uint32_t, 3>& v) {
-        const Vec3d a = mesh.position(v[0]);
-        const Vec3d twice_area = area_normal(a, mesh.position(v[1]), mesh.position(v[2]));
+void PlaneQuadrics::add_triangles(const Watch& watch) {
+    for_each_triangle(mesh_, watch, [&](uint32_t, const std::array<uint32_t, 3>& v) {
+        const Vec3d a = mesh_.position(v[0]);
+        const Vec3d twice_area = area_normal(a, mesh_.position(v[1]), mesh_.position(v[2]));
         const double area = 0.5 * length(twice_area);
         if (!(area > 0)) return;
         const Vec3d normal = normalized(twice_area);
         const double weight =
-            (options.by_area ? area : 1) * (options.instance_weight ? options.instance_weight(normal) : 1);
+            (options_.by_area ? area : 1) * (options_.instance_weight ? options_.instance_weight(normal) : 1);
         const Quadric plane = plane_quadric(normal, a, weight);
         for (const uint32_t vertex : v) {
             quadrics_[vertex] += plane;
@@ -84,38 +88,60 @@ void PlaneQuadrics::add_triangles(const CollapseMesh& mesh, const PlaneOptions& 
     });
 }
 
-// Planes through border and seam edges, perpendicular to the triangle.
-void PlaneQuadrics::add_lines(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch) {
-    const CollapseMesh& mesh = parts.mesh;
-    watched_loop(parts.features.size(), watch, [&](size_t i) {
-        const FeatureEdge& f = parts.features[i];
-        const Vec3d a = mesh.position(mesh.corner_vertex(3 * f.triangle));
-        const Vec3d normal = cross(mesh.position(mesh.corner_vertex(3 * f.triangle + 1)) - a,
-                                   mesh.position(mesh.corner_vertex(3 * f.triangle + 2)) - a);
-        const Vec3d edge = mesh.position(f.b) - mesh.position(f.a);
-        const Vec3d across = normalized(cross(edge, normal));
-        const double weight = squared_length(edge) * (f.is_border ? options.boundary_weight : seam_weight) *
-                              (options.instance_weight ? options.instance_weight(across) : 1);
-        const Quadric plane = plane_quadric(across, mesh.position(f.a), weight);
-        quadrics_[f.a] += plane;
-        quadrics_[f.b] += plane;
+void PlaneQuadrics::add_lines(std::span<const FeatureEdge> edges, const Watch& watch) {
+    watched_loop(edges.size(), watch, [&](size_t i) {
+        const Quadric plane = plane_of_line(edges[i]);
+        line_quadric(edges[i].a) += plane;
+        line_quadric(edges[i].b) += plane;
     });
+}
+
+Quadric& PlaneQuadrics::line_quadric(uint32_t vertex) {
+    if (line_of_.empty()) return quadrics_[vertex];
+    uint32_t& line = line_of_[vertex];
+    if (line == no_index) {
+        line = static_cast<uint32_t>(lines_.size());
+        lines_.emplace_back();
+    }
+    return lines_[line];
+}
+
+// Through a border or seam edge, perpendicular to the triangle.
+Quadric PlaneQuadrics::plane_of_line(const FeatureEdge& f) const {
+    const auto [v0, v1, v2] = mesh_.vertices(f.triangle);
+    const Vec3d a = mesh_.position(v0);
+    const Vec3d normal = cross(mesh_.position(v1) - a, mesh_.position(v2) - a);
+    const Vec3d edge = mesh_.position(f.b) - mesh_.position(f.a);
+    const Vec3d across = normalized(cross(edge, normal));
+    const double weight = squared_length(edge) * (f.is_border ? options_.boundary_weight : seam_weight) *
+                          (options_.instance_weight ? options_.instance_weight(across) : 1);
+    return plane_quadric(across, mesh_.position(f.a), weight);
 }
 
 void PlaneQuadrics::merge(uint32_t removed, uint32_t kept) {
     quadrics_[kept] += quadrics_[removed];
     weights_[kept] += weights_[removed];
+    if (line_of_.empty() || line_of_[removed] == no_index) return;
+    const Quadric line = lines_[line_of_[removed]];
+    line_quadric(kept) += line;
+}
+
+void PlaneQuadrics::set_lines(uint32_t vertex, std::span<const FeatureEdge> edges) {
+    Quadric& lines = line_quadric(vertex);
+    lines = {};
+    for (const FeatureEdge& edge : edges) lines += plane_of_line(edge);
 }
 
 PlaneError::PlaneError(const CollapseParts& parts, const PlaneOptions& options, const Watch& watch)
     : mesh_(parts.mesh), planes_(parts, options, watch) {}
 
-std::optional<Placed> PlaneError::place(uint32_t removed, uint32_t kept, Freedom freedom,
+std::optional<Placed> PlaneError::place(uint32_t removed, uint32_t kept, Freedom freedom, bool joins,
                                         const std::vector<uint32_t>& /*wedge_map*/) const {
     const Vec3d a = mesh_.position(removed), b = mesh_.position(kept);
     const Quadric q = planes_.sum(removed, kept);
     const Vec3d at = least_point(q, a, b, freedom);
-    return Placed{at, q(at) + flat_preference * planes_.weight(removed, kept) * squared_length(a - b)};
+    const double squared = joins ? planes_.sum_of_triangles(removed, kept)(at) : q(at);
+    return Placed{at, squared + flat_preference * planes_.weight(removed, kept) * squared_length(a - b)};
 }
 
 void PlaneError::merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& /*wedge_map*/) {

@@ -74,7 +74,7 @@ void UnifiedError::add_constraints(std::span<const FeatureEdge> features, const 
 }
 
 std::optional<Placed> UnifiedError::place(uint32_t removed, uint32_t kept, Freedom /*freedom*/,
-                                          const std::vector<uint32_t>& wedge_map) const {
+                                          bool /*joins*/, const std::vector<uint32_t>& wedge_map) const {
     const Cost pair = cost(removed, kept, wedge_map);
     if (max_geometric_error_ && pair.geometric > *max_geometric_error_) return {};
     return Placed{mesh_.position(kept), pair.unified};

@@ -47,7 +47,7 @@ class UnifiedError final : public CollapseError {
     Cost cost(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) const;
 
     // At `kept`, whatever the freedom: attributes are never blended.
-    std::optional<Placed> place(uint32_t removed, uint32_t kept, Freedom freedom,
+    std::optional<Placed> place(uint32_t removed, uint32_t kept, Freedom freedom, bool joins,
                                 const std::vector<uint32_t>& wedge_map) const override;
     void merge(uint32_t removed, uint32_t kept, const std::vector<uint32_t>& wedge_map) override;
 

@@ -1,5 +1,6 @@
-// What the surface is like at each vertex before anything is collapsed, and which collapses that forbids.
-// Triangles on the same three vertices (decals, sheets back to back) count as one surface of several layers.
+// What the surface is like at each vertex, and which collapses that forbids. Collapsed edges leave it so;
+// where parts are joined it is found anew (vertex_classifier.h). Triangles on the same three vertices
+// (decals, sheets back to back) count as one surface of several layers.
 #pragma once
 
 #include <array>

@@ -19,9 +19,7 @@ class HardValues {
     explicit HardValues(const Mesh& mesh) {
         for (const Attribute& a : mesh.attributes) add(a);
         for (const MorphTarget& target : mesh.morph_targets) {
-            for (const Attribute& delta : target.deltas) {
-                if (delta.name != "TANGENT") add(delta);
-            }
+            for (const Attribute& delta : target.deltas) add(delta);
         }
     }
 
@@ -46,12 +44,8 @@ class HardValues {
     };
 
     void add(const Attribute& a) {
-        if (a.name == "NORMAL" || a.name.starts_with("COLOR_")) return;
-        if (a.name == "TANGENT") {  // its direction follows the normal, its handedness the UV map
-            if (a.components == 4) streams_.push_back({&a, 3});
-            return;
-        }
-        streams_.push_back({&a, 0});
+        const size_t first = first_hard_component(a);
+        if (first < a.components) streams_.push_back({&a, first});
     }
 
     std::vector<Stream> streams_;
@@ -149,6 +143,11 @@ std::vector<uint32_t> corner_wedges(const Mesh& mesh, const WedgeCharts& charts,
 }
 
 }  // namespace
+
+size_t first_hard_component(const Attribute& attribute) {
+    if (attribute.name == "NORMAL" || attribute.name.starts_with("COLOR_")) return attribute.components;
+    return attribute.name == "TANGENT" ? 3 : 0;
+}
 
 WedgeCharts wedge_charts(const Mesh& mesh, const Watch& watch) {
     WedgeCharts charts;

@@ -18,6 +18,10 @@ struct WedgeCharts {
     std::vector<uint32_t> corner_wedge;  // per corner
 };
 
+// What must be alike within a chart: an attribute's components from this one on. All of it but normals and
+// colours, and of a tangent the handedness (its direction follows the normal, its handedness the UV map).
+size_t first_hard_component(const Attribute& attribute);
+
 // O(wedges log wedges of a vertex).
 WedgeCharts wedge_charts(const Mesh& mesh, const Watch& watch);
 

@@ -1,5 +1,8 @@
 #include "core/simplify/wedge_map.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace coppice {
 
 namespace {
@@ -19,6 +22,26 @@ bool WedgeMap::find(uint32_t removed, uint32_t kept) {
     }
     used_.assign(count, false);
     return pair_along_edge(removed, kept) && follow_charts();
+}
+
+bool WedgeMap::find_across(uint32_t removed, uint32_t kept, const WedgeValues& values) {
+    first_ = mesh_.wedge_begin(removed);
+    map_.assign(mesh_.wedge_end(removed) - first_, no_index);
+    const uint32_t begin = mesh_.wedge_begin(kept), end = mesh_.wedge_end(kept);
+    if (std::max<size_t>(map_.size(), end - begin) > most_wedges_tried) return false;
+    for (uint32_t c = mesh_.first_corner(removed); c != no_index; c = mesh_.corner_after(c)) {
+        const uint32_t from = mesh_.corner_wedge(c);
+        uint32_t& best = map_[from - first_];
+        if (best != no_index) continue;
+        double least = std::numeric_limits<double>::infinity();
+        for (uint32_t w = begin; w < end; ++w) {
+            if (mesh_.wedge_slot(w) != mesh_.wedge_slot(from) || !values.same_chart(w, from)) continue;
+            const double error = clouds_.squared_error(from, w);
+            if (error < least) least = error, best = w;
+        }
+        if (best == no_index) return false;
+    }
+    return true;
 }
 
 bool WedgeMap::pair_along_edge(uint32_t removed, uint32_t kept) {

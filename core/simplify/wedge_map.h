@@ -6,6 +6,7 @@
 
 #include "core/simplify/attribute_cloud.h"
 #include "core/simplify/collapse_mesh.h"
+#include "core/simplify/wedge_values.h"
 
 namespace coppice {
 
@@ -20,6 +21,10 @@ class WedgeMap {
 
     // False when there is no map. `removed` and `kept` share at least one triangle.
     bool find(uint32_t removed, uint32_t kept);
+
+    // The same for vertices without a triangle in common: each wedge goes to the one of its slot that could
+    // be of its chart by the values that both have now. Of several, to that whose attributes are nearest.
+    bool find_across(uint32_t removed, uint32_t kept, const WedgeValues& values);
 
     // After find: per wedge of `removed`, in order; no_index for wedges that no corner uses and no chart
     // leads on.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/simplify/wedge_charts.h"
+
 namespace coppice {
 
 namespace {
@@ -35,7 +37,8 @@ WedgeValues::WedgeValues(const Mesh& source, std::span<const uint32_t> wedge_sou
 }
 
 void WedgeValues::add_stream(const Attribute& attribute, Mean mean) {
-    streams_.push_back({&attribute.values, attribute.components, stride_, mean});
+    streams_.push_back(
+        {&attribute.values, attribute.components, stride_, first_hard_component(attribute), mean});
     stride_ += attribute.components;
 }
 
@@ -64,6 +67,14 @@ const float* WedgeValues::values(uint32_t wedge, const Stream& stream) const {
 
 float WedgeValues::value(uint32_t wedge, size_t attribute, uint32_t component) const {
     return values(wedge, streams_[attribute])[component];
+}
+
+bool WedgeValues::same_chart(uint32_t a, uint32_t b) const {
+    return std::all_of(streams_.begin(), streams_.end(), [&](const Stream& s) {
+        const float* one = values(a, s);
+        return s.first_hard >= s.components ||
+               std::equal(one + s.first_hard, one + s.components, values(b, s) + s.first_hard);
+    });
 }
 
 void WedgeValues::blend(std::span<const WedgeShare> shares, uint32_t into) {

@@ -35,6 +35,9 @@ class WedgeValues {
     // A value as it is now: attribute, component.
     float value(uint32_t wedge, size_t attribute, uint32_t component) const;
 
+    // Whether two wedges could be of one chart, as they are now (wedge_charts.h).
+    bool same_chart(uint32_t a, uint32_t b) const;
+
     // Replaces the attributes and morph deltas of `mesh`, whose wedge i takes the values of wedges[i].
     void write(std::span<const uint32_t> wedges, Mesh& mesh) const;
 
@@ -43,7 +46,8 @@ class WedgeValues {
     struct Stream {
         const std::vector<float>* source = nullptr;
         uint32_t components = 0;
-        uint32_t offset = 0;  // in a row
+        uint32_t offset = 0;    // in a row
+        size_t first_hard = 0;  // component
         Mean mean = Mean::none;
     };
 

@@ -158,6 +158,22 @@ Mesh grid(Grid shape) {
     return builder.finish();
 }
 
+Mesh tiles(Tiles shape) {
+    Builder builder;
+    builder.uvs = shape.uvs;
+    for (uint32_t tile = 0; tile < shape.columns * shape.rows; ++tile) {
+        const uint32_t column = tile % shape.columns, row = tile / shape.columns;
+        tile_grid(builder, shape.cells, shape.cells, [&](uint32_t i, uint32_t j) {
+            Point p;
+            p.u = static_cast<double>(i) / shape.cells;
+            p.v = static_cast<double>(j) / shape.cells;
+            p.position = {column + p.u * (1 - shape.gap), 0, row + p.v * (1 - shape.gap)};
+            return p;
+        });
+    }
+    return builder.finish();
+}
+
 Mesh torus(Torus shape) {
     Builder builder;
     builder.normals = true;

@@ -36,6 +36,16 @@ struct Grid {
 };
 Mesh grid(Grid shape = {});
 
+// Square sheets with gaps between them, side by side in the xz plane, facing +y: none is connected to
+// another.
+struct Tiles {
+    uint32_t columns = 8, rows = 8;
+    uint32_t cells = 1;  // squares along each side of a tile
+    double gap = 0.1;    // of the distance between the centres of tiles, which is 1
+    bool uvs = false;    // 0..1 over each tile
+};
+Mesh tiles(Tiles shape = {});
+
 struct Torus {
     uint32_t segments = 32, sides = 16;
     double radius = 1, thickness = 0.4;

@@ -175,6 +175,16 @@ TEST(Validate, refuses_a_parameter_of_another_mode) {
     EXPECT_EQ(refused({.algorithm = "ias", .parameters = {{"seed", 3.0}}}), ErrorCode::option_conflict);
 }
 
+TEST(Validate, refuses_an_area_tolerance_without_pairs) {
+    for (const ParameterValue& none : {ParameterValue(0.0), ParameterValue(std::string("0u"))}) {
+        EXPECT_EQ(
+            refused({.algorithm = "gaps", .parameters = {{"pair_distance", none}, {"area_tolerance", 0.2}}}),
+            ErrorCode::option_conflict);
+    }
+    EXPECT_NO_THROW(validate({.algorithm = "gaps", .parameters = {{"area_tolerance", 0.2}}}));
+    EXPECT_NO_THROW(validate({.algorithm = "gaps", .parameters = {{"pair_distance", 0.0}}}));
+}
+
 TEST(Validate, lets_prune_instances_go_with_a_target_that_it_can_meet_alone) {
     const std::map<std::string, ParameterValue> pruning = {{"prune_instances", true}, {"seed", 3.0}};
     EXPECT_NO_THROW(validate({.algorithm = "ias", .parameters = pruning}));

@@ -23,7 +23,8 @@ namespace {
 struct NamedMesh {
     const char* name;
     Mesh mesh;
-    bool is_surface = true;  // has an outside, and borders that are lines
+    bool is_surface = true;   // has an outside, and borders that are lines
+    bool is_cracked = false;  // has borders that may close
 
     bool has_texture() const { return mesh.find_attribute("TEXCOORD_0") != nullptr; }
 };
@@ -44,6 +45,7 @@ const std::vector<NamedMesh>& drawn() {
         {"tetrahedron", shapes::tetrahedron()},
         {"soup", shapes::soup(), false},
         {"fin", shapes::fin()},
+        {"tiles", shapes::tiles({.columns = 4, .rows = 3, .cells = 4, .gap = 0.02}), true, true},
         {"skinned_strip", shapes::skinned_strip()},
     };
     return list;
@@ -136,6 +138,7 @@ class EveryAlgorithm : public testing::TestWithParam<std::tuple<test::Variant, s
 // What holds on some shapes only is not asked of the others. Soup has no outside that a triangle could be
 // flipped from, and is nothing but borders; without texture coordinates there are no seams of them.
 class EveryAlgorithmOnSurfaces : public EveryAlgorithm {};
+class EveryAlgorithmOnBorders : public EveryAlgorithm {};
 class EveryAlgorithmOnTextures : public EveryAlgorithm {};
 
 TEST_P(EveryAlgorithm, gives_a_consistent_mesh_without_what_is_unused) {
@@ -183,7 +186,7 @@ TEST_P(EveryAlgorithm, keeps_the_box) {
     });
 }
 
-TEST_P(EveryAlgorithmOnSurfaces, keeps_borders) {
+TEST_P(EveryAlgorithmOnBorders, keeps_borders) {
     at_every_ratio([&](double, const Simplified& s) {
         EXPECT_TRUE(test::keeps_borders(mesh(), s.mesh, line_tolerance));
         if (topology(mesh()).border_edges == 0) {
@@ -263,6 +266,12 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryAlgorithmOnSurfaces,
                          testing::Combine(every_variant,
                                           testing::ValuesIn(shapes_that([](const NamedMesh& m) {
                                               return m.is_surface;
+                                          }))),
+                         variant_and_shape);
+INSTANTIATE_TEST_SUITE_P(Registry, EveryAlgorithmOnBorders,
+                         testing::Combine(every_variant,
+                                          testing::ValuesIn(shapes_that([](const NamedMesh& m) {
+                                              return m.is_surface && !m.is_cracked;
                                           }))),
                          variant_and_shape);
 INSTANTIATE_TEST_SUITE_P(Registry, EveryAlgorithmOnTextures,
