@@ -591,8 +591,8 @@ bool PackedCollapse::keeps_texture(const Merge& m, Vec3f at) const {
            (!m.moves || keeps(kept_fan_, m.kept, &WedgeQuadrics::Pair::kept));
 }
 
-// The other neighbour of a vertex along its line.
-std::optional<uint32_t> PackedCollapse::line_neighbour(uint32_t vertex, uint32_t but) const {
+// The other neighbour of a vertex along its line; no_index where there is none.
+uint32_t PackedCollapse::line_neighbour(uint32_t vertex, uint32_t but) const {
     const uint32_t begin = mesh_.first_spoke[vertex], end = mesh_.first_spoke[vertex + 1];
     const bool is_border = mesh_.kinds[vertex] == VertexKind::border;
     const auto own = [&](uint32_t spoke) { return wedge_now(mesh_.wedges(vertex, spoke)[0]); };
@@ -611,27 +611,28 @@ std::optional<uint32_t> PackedCollapse::line_neighbour(uint32_t vertex, uint32_t
             if (!is_paired) return neighbour;
         }
     }
-    return {};
+    return no_index;
 }
 
 // How far the line may be from where it was; none where that is too far.
 std::optional<float> PackedCollapse::line_away(const Merge& m, Vec3f at) const {
-    const std::optional<uint32_t> before = line_neighbour(m.removed, m.kept);
-    if (!before) return {};
-    const std::optional<uint32_t> after = m.moves ? line_neighbour(m.kept, m.removed) : std::nullopt;
-    if (after && *after == *before) return {};  // all that is left of a loop
+    const uint32_t before = line_neighbour(m.removed, m.kept);
+    if (before == no_index) return {};
+    const uint32_t after = m.moves ? line_neighbour(m.kept, m.removed) : no_index;
+    if (after == before) return {};  // all that is left of a loop
     for (uint32_t i = 0; i < removed_ring_.count; ++i) {
         const uint32_t next = removed_ring_.next[i], previous = removed_ring_.previous[i];
-        if ((next == m.kept && previous == *before) || (previous == m.kept && next == *before)) return {};
+        if ((next == m.kept && previous == before) || (previous == m.kept && next == before)) return {};
     }
     const Vec3f removed = mesh_.positions[m.removed], kept = mesh_.positions[m.kept], point = kept + at;
     const auto from_line = [&](Vec3f p) {
-        float distance = distance_to_segment(p, mesh_.positions[*before], point);
-        if (after) distance = std::min(distance, distance_to_segment(p, point, mesh_.positions[*after]));
+        float distance = distance_to_segment(p, mesh_.positions[before], point);
+        if (after != no_index)
+            distance = std::min(distance, distance_to_segment(p, point, mesh_.positions[after]));
         return distance;
     };
     const float carried =
-        std::max({away_[m.removed], away_[m.kept], away_[*before], after ? away_[*after] : 0});
+        std::max({away_[m.removed], away_[m.kept], away_[before], away_[after == no_index ? before : after]});
     const float away = carried + std::max(from_line(removed), from_line(kept));
     return away <= line_tolerance ? std::optional(away) : std::nullopt;
 }

@@ -110,7 +110,7 @@ class PackedCollapse {
     bool keeps_orientation(const Fan& fan, Vec3f facing_before, Vec3f facing, Vec3f at) const;
     bool keeps_texture(const Merge& merge, Vec3f at) const;
     std::optional<float> line_away(const Merge& merge, Vec3f at) const;
-    std::optional<uint32_t> line_neighbour(uint32_t vertex, uint32_t but) const;
+    uint32_t line_neighbour(uint32_t vertex, uint32_t but) const;
     void apply(const Merge& merge, Vec3f at, const CentredQuadric& q, Vec3f offset);
 
     uint32_t now(uint32_t vertex) const { return vertex_becomes_[vertex]; }
