@@ -6,9 +6,10 @@ namespace coppice {
 
 namespace {
 
-Features features_of(const CollapseMesh& mesh, bool lock_sharp, const Watch& watch) {
+Features features_of(const CollapseMesh& mesh, const GuardOptions& options, const Watch& watch) {
     Features features = find_features(mesh, watch);
-    if (lock_sharp) lock_sharp_borders(mesh, features);
+    if (options.lock_sharp_borders) lock_sharp_borders(mesh, features);
+    if (options.lock_borders) lock_borders(features);
     return features;
 }
 
@@ -19,7 +20,7 @@ GuardedMesh::GuardedMesh(const Mesh& source, const Target& target, const GuardOp
     : source_(source),
       target_(target),
       mesh_(source, watch),
-      features_(features_of(mesh_, options.lock_sharp_borders, watch)),
+      features_(features_of(mesh_, options, watch)),
       rules_(mesh_, features_.kinds, watch),
       bounds_(mesh_, options.tolerance * bounds_tolerance_of_diagonal * mesh_.box().diagonal(), watch),
       lines_(mesh_, features_, options.tolerance * line_tolerance_of_diagonal * mesh_.box().diagonal(),
