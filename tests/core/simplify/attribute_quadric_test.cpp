@@ -179,6 +179,17 @@ TEST(AttributeQuadric, keeps_the_edge_between_colours_where_they_have_a_weight) 
     EXPECT_LT(with->root_mean_square, 0.02);
 }
 
+TEST(AttributeQuadric, moves_along_and_never_mirrors_what_has_no_weight) {
+    const Parameters none = {{"normal_weight", 0.0}, {"uv_weight", 0.0}, {"color_weight", 0.0}};
+    const Mesh flat = shapes::grid({.columns = 32, .rows = 32, .uvs = true, .colors = true});
+    const SurfaceComparison c = compare(flat, reduced(flat, 0.1, none));
+    EXPECT_LT(c.texture->largest, 1e-4);
+    EXPECT_LT(c.colors->largest, 1e-4);
+    const Mesh hills = shapes::grid({.columns = 40, .rows = 40, .height = 0.15, .uvs = true});
+    const auto [left, right] = windings_of_texture(reduced(hills, 0.1, none));
+    EXPECT_EQ(std::min(left, right), 0U);
+}
+
 std::set<std::array<float, 3>> border_positions(const Mesh& mesh) {
     std::set<std::array<float, 3>> all;
     for (const Edge& edge : edges(mesh)) {

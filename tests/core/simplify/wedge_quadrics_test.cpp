@@ -308,11 +308,35 @@ TEST(WedgeQuadrics, foresee_the_texture_that_a_merge_writes) {
     EXPECT_EQ(tested.quadrics.uv(edge.kept, 0), foreseen);
 }
 
-TEST(WedgeQuadrics, leave_out_what_has_no_weight) {
+TEST(WedgeQuadrics, have_no_error_of_what_has_no_weight) {
     const Mesh source = hills();
     const PackedMesh mesh(source, {});
-    EXPECT_FALSE(WedgeQuadrics(mesh, source, {}, {}).any());
-    EXPECT_EQ(WedgeQuadrics(mesh, source, {.normal = 0.1, .color = 0.1}, {}).uv_sets(), 0U);
+    WedgeQuadrics::Pair pair = {.removed = mesh.triangles[90], .kept = mesh.triangles[91]};
+    const WedgeQuadrics none(mesh, source, {}, {});
+    none.join(mesh.positions[pair.removed] - mesh.positions[pair.kept], pair);
+    EXPECT_EQ(none.error(pair)({0.1F, 0.1F, 0.1F}), 0);
+    EXPECT_EQ(none.error_with_values_kept(pair, {0.1F, 0.1F, 0.1F}), 0);
+}
+
+// Linear values on flat ground stay exact, whatever they weigh.
+TEST(WedgeQuadrics, carry_along_what_has_no_weight) {
+    const Mesh source = shapes::grid({.columns = 8, .rows = 8, .uvs = true, .colors = true});
+    const PackedMesh mesh(source, {});
+    for (const AttributeWeights& some : {AttributeWeights{}, AttributeWeights{.color = 0.1}}) {
+        WedgeQuadrics quadrics(mesh, source, some, {});
+        EXPECT_EQ(quadrics.uv_sets(), 1U);
+        WedgeQuadrics::Pair pair = {.removed = mesh.triangles[90], .kept = mesh.triangles[91]};
+        const Vec3f offset = mesh.positions[pair.removed] - mesh.positions[pair.kept];
+        quadrics.join(offset, pair);
+        quadrics.merge(pair, offset * 0.5F, false);
+        Mesh merged = source;
+        quadrics.write(merged);
+        const Vec3f middle = (source.positions[pair.removed] + source.positions[pair.kept]) * 0.5F;
+        const std::vector<float>& uv = merged.find_attribute("TEXCOORD_0")->values;
+        EXPECT_NEAR(uv[size_t{2} * pair.kept], middle.x, 1e-5);
+        EXPECT_NEAR(uv[size_t{2} * pair.kept + 1], middle.z, 1e-5);
+        EXPECT_NEAR(merged.find_attribute("COLOR_0")->values[size_t{3} * pair.kept], middle.x, 1e-5);
+    }
 }
 
 }  // namespace
