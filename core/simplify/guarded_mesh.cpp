@@ -1,6 +1,5 @@
 #include "core/simplify/guarded_mesh.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace coppice {
@@ -10,8 +9,7 @@ namespace {
 Features features_of(const CollapseMesh& mesh, const GuardOptions& options, const Watch& watch) {
     Features features = find_features(mesh, watch);
     if (options.lock_sharp_borders) lock_sharp_borders(mesh, features);
-    if (options.lock_borders)
-        std::replace(features.kinds.begin(), features.kinds.end(), VertexKind::border, VertexKind::corner);
+    if (options.lock_borders) lock_borders(features);
     return features;
 }
 

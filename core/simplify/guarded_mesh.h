@@ -18,7 +18,7 @@ namespace coppice {
 
 struct GuardOptions {
     bool lock_sharp_borders = false;  // for errors that do not see borders; see vertex_kind.h
-    bool lock_borders = false;        // all of them
+    bool lock_borders = false;        // no vertex of one goes or moves
     double tolerance = 1;  // part of what lines and the box may move; less if some of it is used up
 };
 

@@ -22,6 +22,11 @@ void lock_sharp_borders(const CollapseMesh& mesh, Features& features) {
     }
 }
 
+void lock_borders(Features& features) {
+    for (const FeatureEdge& f : features.edges)
+        if (f.is_border) features.kinds[f.a] = features.kinds[f.b] = VertexKind::corner;
+}
+
 Features find_features(const CollapseMesh& mesh, const Watch& watch) {
     Features features;
     features.kinds = watched_vector(mesh.vertex_count(), watch, VertexKind::corner);

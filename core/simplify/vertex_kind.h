@@ -56,6 +56,9 @@ struct Features {
 // error does not see borders.
 void lock_sharp_borders(const CollapseMesh& mesh, Features& features);
 
+// Makes corners of all vertices of borders.
+void lock_borders(Features& features);
+
 // O(triangles). Throws when the watch is stopped.
 Features find_features(const CollapseMesh& mesh, const Watch& watch);
 

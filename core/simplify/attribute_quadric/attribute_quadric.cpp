@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <memory>
 
 #include "core/simplify/attribute_quadric/packed_collapse.h"
@@ -43,14 +44,26 @@ std::span<const Parameter> parameters() {
     return list;
 }
 
+// Relative to the mean over three directions: attributes and lines have no instances to weigh them, so how
+// many there are and of what size must not tell between them and planes. None where they have no volume.
+std::function<double(Vec3d)> relative_weight(std::span<const Transform> instances) {
+    const InstanceWeights weights(instances);
+    const double mean = (weights({1, 0, 0}) + weights({0, 1, 0}) + weights({0, 0, 1})) / 3;
+    if (!(mean > 0)) return {};
+    return [weights, mean](Vec3d normal) { return weights(normal) / mean; };
+}
+
 // What passes have left, edge by edge.
-Simplified finish(const Mesh& mesh, const Target& target, double error, bool lock_borders,
+Simplified finish(const Mesh& mesh, const Target& target, const PackedOptions& options, double error,
                   const Watch& watch) {
     Target rest = target;
     if (rest.error_model_units) *rest.error_model_units = std::max(0.0, *rest.error_model_units - error);
     EdgeCollapse work(
-        mesh, rest, {.guards = {.lock_borders = lock_borders, .tolerance = 1 - packed_tolerance}},
-        [&](const CollapseParts& parts) { return std::make_unique<GapsError>(parts, PlaneOptions{}, watch); },
+        mesh, rest, {.guards = {.lock_borders = options.lock_borders, .tolerance = 1 - packed_tolerance}},
+        [&](const CollapseParts& parts) {
+            const PlaneOptions planes = {.instance_weight = options.instance_weight};
+            return std::make_unique<GapsError>(parts, planes, watch);
+        },
         watch);
     CheapestFirst(work, watch).run();
     Simplified result = work.finish(work.done() ? StopReason::target : work.reason_for_refusals(), watch);
@@ -67,7 +80,7 @@ Simplified simplify(const Mesh& source, std::span<const Transform> instances, co
                                          .color = *values.number("color_weight")},
                              .lock_borders = values.boolean("lock_borders"),
                              .share_of_pass = values.text("quality") == "best" ? 0.1 : 1};
-    if (!instances.empty()) options.instance_weight = InstanceWeights(instances);
+    if (!instances.empty()) options.instance_weight = relative_weight(instances);
     Simplified result;
     {
         PackedCollapse work(source, options, watch);
@@ -77,8 +90,7 @@ Simplified simplify(const Mesh& source, std::span<const Transform> instances, co
                   .stop_reason = work.is_met(target) ? StopReason::target : StopReason::error_limit};
     }
     if (result.stop_reason != StopReason::target)
-        result =
-            finish(result.mesh, target, result.error_model_units, options.lock_borders, watch.part(0.9, 1));
+        result = finish(result.mesh, target, options, result.error_model_units, watch.part(0.9, 1));
     watch.report(1.0);
     return result;
 }

@@ -79,28 +79,10 @@ PackedCollapse::PackedCollapse(const Mesh& source, const PackedOptions& options,
     add_lines(watch);
 }
 
-// What all triangles weigh alike for instances is none of their weight beside borders and attributes. 0: they
-// have none.
-double PackedCollapse::mean_instance_weight(const Watch& watch) const {
-    if (!options_.instance_weight) return 0;
-    double sum = 0, areas = 0;
-    watched_loop(mesh_.triangle_count(), watch, [&](size_t t) {
-        const uint32_t* v = &mesh_.triangles[3 * t];
-        const Vec3d area =
-            to_double(area_normal(mesh_.positions[v[0]], mesh_.positions[v[1]], mesh_.positions[v[2]]));
-        const double size = length(area);
-        if (!(size > 0)) return;
-        sum += size * options_.instance_weight(area * (1 / size));
-        areas += size;
-    });
-    return areas > 0 ? sum / areas : 0;
-}
-
 // A triangle's plane passes through its corners, so about each of them it has no offset.
 void PackedCollapse::add_planes(const Watch& watch) {
     watched_resize(planes_, mesh_.vertex_count(), watch);
     watched_resize(facing_, mesh_.vertex_count(), watch);
-    const double usual = mean_instance_weight(watch);
     watched_loop(mesh_.triangle_count(), watch, [&](size_t t) {
         const uint32_t* v = &mesh_.triangles[3 * t];
         const Vec3f area = area_normal(mesh_.positions[v[0]], mesh_.positions[v[1]], mesh_.positions[v[2]]);
@@ -108,7 +90,7 @@ void PackedCollapse::add_planes(const Watch& watch) {
         if (!(size > 0)) return;
         const Vec3f n = area * (1 / size);
         float weight = size / 6;
-        if (usual > 0) weight *= static_cast<float>(options_.instance_weight(to_double(n)) / usual);
+        if (options_.instance_weight) weight *= static_cast<float>(options_.instance_weight(to_double(n)));
         CentredQuadric q;
         q.add_square(n, weight);
         q.weight = weight;

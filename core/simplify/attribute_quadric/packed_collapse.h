@@ -31,7 +31,7 @@ struct PackedOptions {
     AttributeWeights weights = {};
     bool lock_borders = false;
     double share_of_pass = 1;  // of what is to go, at most, in one pass; smaller is slower and more exact
-    std::function<double(Vec3d)> instance_weight = {};  // as PlaneOptions has it
+    std::function<double(Vec3d)> instance_weight = {};  // as PlaneOptions has it, about 1
 };
 
 // One object, one thread.
@@ -79,7 +79,6 @@ class PackedCollapse {
         uint32_t four_count() const { return (count + lane_count - 1) / lane_count; }
     };
 
-    double mean_instance_weight(const Watch& watch) const;
     void add_planes(const Watch& watch);
     void add_lines(const Watch& watch);
     void rank(const Watch& watch);

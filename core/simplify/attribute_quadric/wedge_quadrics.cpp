@@ -9,9 +9,6 @@ namespace coppice {
 
 namespace {
 
-// Textures are never mirrored, whatever they weigh.
-constexpr double least_uv_weight = 1e-4;
-
 // How long one unit of texture coordinates is in space, in diagonals: sqrt(area / area in the texture).
 double length_of_uv(const PackedMesh& mesh, const Attribute& uv, const Watch& watch) {
     double in_space = 0, in_texture = 0;
@@ -54,23 +51,38 @@ WedgeQuadrics::WedgeQuadrics(const PackedMesh& mesh, const Mesh& source, const A
 
 void WedgeQuadrics::add_channels(const PackedMesh& mesh, const Mesh& source, const AttributeWeights& weights,
                                  const Watch& watch) {
+    std::vector<Channel> found;
     for (size_t i = 0; i < source.attributes.size(); ++i) {
         const Attribute& a = source.attributes[i];
-        Channel channel = {.attribute = i, .first = components_, .count = a.components};
+        Channel channel = {.attribute = i, .count = a.components};
         double scale = 0;
         if (a.name == "NORMAL" && a.components == 3) {
             scale = weights.normal;
             channel.range = Channel::Range::unit_length;
         } else if (a.name.starts_with("TEXCOORD_") && a.components == 2) {
-            scale = std::max(weights.uv, least_uv_weight) * length_of_uv(mesh, a, watch);
+            scale = weights.uv > 0 ? weights.uv * length_of_uv(mesh, a, watch) : 0;
+            channel.is_uv = true;
         } else if (a.name.starts_with("COLOR_") && a.components <= 4) {
             scale = weights.color;
             channel.range = Channel::Range::zero_to_one;
+        } else {
+            continue;
         }
         channel.scale = static_cast<float>(scale);
-        if (!(channel.scale > 0) || components_ + a.components > most_components) continue;
-        if (a.name.starts_with("TEXCOORD_")) uv_components_.push_back(components_);
-        components_ += a.components;
+        found.push_back(channel);
+    }
+    const auto is_weighed = [](const Channel& channel) { return channel.scale > 0; };
+    std::stable_partition(found.begin(), found.end(), is_weighed);
+    for (Channel& channel : found) {
+        if (components_ + channel.count > most_components) continue;
+        channel.first = components_;
+        components_ += channel.count;
+        if (is_weighed(channel)) {
+            weighed_ = components_;
+        } else {
+            channel.scale = 1;
+        }
+        if (channel.is_uv) uv_components_.push_back(channel.first);
         channels_.push_back(channel);
     }
 }
@@ -99,7 +111,7 @@ void WedgeQuadrics::add_triangles(const PackedMesh& mesh, const Watch& watch) {
             };
             const Vec3f g = along_1 * (value(1) - value(0)) + along_2 * (value(2) - value(0));
             for (const uint32_t w : wedges) {
-                quadrics_[w].add_square(g, weight);
+                if (k < weighed_) quadrics_[w].add_square(g, weight);
                 Vec3f& sum = gradients_[size_t{w} * components_ + k];
                 sum = sum + g * weight;
             }
@@ -116,8 +128,10 @@ void WedgeQuadrics::join(Vec3f offset, Pair& pair) const {
         const float change = values_[r + k] - values_[s + k];
         const Vec3f gradient = gradients_[r + k];
         const float at_offset = offsets_[r + k] - dot(gradient, offset);
-        moved.b = moved.b + gradient * change;
-        moved.c += change * (weight * change + 2 * at_offset);
+        if (k < weighed_) {
+            moved.b = moved.b + gradient * change;
+            moved.c += change * (weight * change + 2 * at_offset);
+        }
         pair.offsets[k] = offsets_[s + k] + at_offset + weight * change;
         pair.gradients[k] = gradients_[s + k] + gradient;
     }
@@ -129,7 +143,7 @@ CentredQuadric WedgeQuadrics::error(const Pair& pair) const {
     CentredQuadric q = pair.quadric;
     const float inverse = q.weight > 0 ? 1 / q.weight : 0;
     q.weight = 0;
-    for (uint32_t k = 0; k < components_; ++k) {
+    for (uint32_t k = 0; k < weighed_; ++k) {
         q.add_square(pair.gradients[k], -inverse);
         q.b = q.b - pair.gradients[k] * (pair.offsets[k] * inverse);
         q.c -= pair.offsets[k] * pair.offsets[k] * inverse;
@@ -150,8 +164,10 @@ void WedgeQuadrics::merge(const Pair& pair, Vec3f at, bool keep_values) {
         const float change = keep_values ? 0 : best_change(pair, at, k);
         const Vec3f gradient = pair.gradients[k];
         const float at_point = pair.offsets[k] + dot(gradient, at);
-        q.b = q.b - gradient * change;
-        q.c += change * (weight * change - 2 * at_point);
+        if (k < weighed_) {
+            q.b = q.b - gradient * change;
+            q.c += change * (weight * change - 2 * at_point);
+        }
         offsets_[s + k] = at_point - weight * change;
         gradients_[s + k] = gradient;
         values_[s + k] += change;

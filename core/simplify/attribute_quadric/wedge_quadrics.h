@@ -22,7 +22,8 @@
 
 namespace coppice {
 
-// How many diagonals off the surface are as bad as one unit off in the attribute; 0 leaves it out of errors.
+// How many diagonals off the surface are as bad as one unit off in the attribute; 0 leaves it out of errors,
+// but its values still go where the vertices go.
 // UVs: of the lengths in space that the texture has in the mean.
 struct AttributeWeights {
     double normal = 0, uv = 0, color = 0;
@@ -30,7 +31,7 @@ struct AttributeWeights {
 
 class WedgeQuadrics {
   public:
-    static constexpr uint32_t most_components = 16;  // of all attributes together; the rest is not weighed
+    static constexpr uint32_t most_components = 16;  // of all attributes together; the rest is left
 
     WedgeQuadrics(const PackedMesh& mesh, const Mesh& source, const AttributeWeights& weights,
                   const Watch& watch);
@@ -72,6 +73,7 @@ class WedgeQuadrics {
         size_t attribute = 0;  // of the source
         uint32_t first = 0, count = 0;
         float scale = 1;  // from the attribute's unit to diagonals
+        bool is_uv = false;
         enum class Range : uint8_t { any, unit_length, zero_to_one } range = Range::any;
     };
 
@@ -81,6 +83,7 @@ class WedgeQuadrics {
     float best_change(const Pair& pair, Vec3f at, uint32_t component) const;
 
     uint32_t components_ = 0;
+    uint32_t weighed_ = 0;  // the first of them; A, b and c are of those alone
     std::vector<Channel> channels_;
     std::vector<uint32_t> uv_components_;   // the first of each set
     std::vector<CentredQuadric> quadrics_;  // per wedge
