@@ -92,6 +92,7 @@ TEST(AttributeQuadricHardCases, reduces_around_a_fin_and_keeps_where_it_stands) 
     EXPECT_LT(largest_distance(fin, s.mesh), 1e-3);
 }
 
+// Who asked for less has to know why: zeux/meshoptimizer#112.
 TEST(AttributeQuadricHardCases, leaves_triangles_that_stand_alone_and_says_why) {
     Mesh mesh = without_triangles_yet();
     for (uint32_t i = 0; i < 300; ++i) {
