@@ -105,7 +105,7 @@ TEST(AttributeQuadric, keeps_the_volume_of_a_closed_surface) {
     EXPECT_GT(volume_lost(test::run_algorithm(quadric(), before, part_of(before, 0.1)).mesh), 0.003);
 }
 
-// Of a blob and a cylinder, whose charts end along a line: users.md, 14 and 15.
+// Of a blob and a cylinder, whose charts end along a line. Holes there: zeux/meshoptimizer#518, #656.
 TEST(AttributeQuadric, opens_no_seam_and_mirrors_no_texture) {
     for (const Mesh& mesh : {shapes::blob(), shapes::cylinder({.segments = 64, .rows = 48})}) {
         for (const double ratio : {0.5, 0.1}) {
@@ -133,7 +133,7 @@ TEST(AttributeQuadric, keeps_the_texture_in_its_place) {
     }
 }
 
-// Where a texture runs to a line and back again no seam is seen: users.md, 15.
+// Where a texture runs to a line and back again there is no seam to see: zeux/meshoptimizer#718.
 TEST(AttributeQuadric, keeps_the_line_along_which_a_texture_is_mirrored) {
     Mesh grid = shapes::grid({.columns = 32, .rows = 32, .height = 0.05, .uvs = true});
     std::vector<float>& uv = grid.attributes[0].values;
@@ -169,7 +169,7 @@ Mesh red_and_blue() {
     return grid;
 }
 
-// users.md, 16.
+// zeux/meshoptimizer#652.
 TEST(AttributeQuadric, keeps_the_edge_between_colours_where_they_have_a_weight) {
     const Mesh grid = red_and_blue();
     const auto with = compare(grid, reduced(grid, 0.1)).colors;
@@ -202,7 +202,7 @@ std::set<std::array<float, 3>> border_positions(const Mesh& mesh) {
     return all;
 }
 
-// users.md, 14.
+// zeux/meshoptimizer#86.
 TEST(AttributeQuadric, keeps_every_vertex_of_locked_borders) {
     for (const Mesh& mesh : {shapes::grid({.columns = 24, .rows = 24, .height = 0.1, .uvs = true}),
                              shapes::cylinder({.segments = 48, .rows = 32})}) {

@@ -147,7 +147,8 @@ TEST(Registry, lists_each_algorithm_once_and_finds_it_by_its_id) {
 TEST(Registry, says_which_algorithms_there_are) {
     const Error error = refusal([] { find_algorithm("best"); });
     EXPECT_EQ(error.code(), ErrorCode::option_invalid);
-    EXPECT_THAT(error.message(), testing::HasSubstr("\"best\" does not exist; it may be its"));
+    EXPECT_THAT(error.message(), testing::HasSubstr("\"best\" does not exist; it may be "));
+    for (const Algorithm& a : algorithms()) EXPECT_THAT(error.message(), testing::HasSubstr(a.id));
 }
 
 TEST(Registry, has_defaults_that_are_allowed) {

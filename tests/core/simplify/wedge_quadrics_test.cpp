@@ -266,17 +266,21 @@ TEST(WedgeQuadrics, write_unit_normals_and_colours_within_their_range) {
         EXPECT_NEAR(std::hypot(normals[3 * w], normals[3 * w + 1], normals[3 * w + 2]), 1, 1e-5);
 }
 
-TEST(WedgeQuadrics, write_nothing_where_nothing_was_merged) {
-    Tested tested(hills());
-    const Edge edge = inner_edge(tested);
-    tested.quadrics.merge(tested.join(edge.removed, edge.kept), {0.02F, 0, 0.01F}, false);
-    Mesh mesh = tested.source();
-    tested.quadrics.write(mesh);
-    for (size_t i = 0; i < mesh.attributes.size(); ++i) {
-        const Attribute &now = mesh.attributes[i], &before = tested.source().attributes[i];
-        for (size_t w = 0; w < mesh.wedge_count(); ++w) {
-            for (size_t k = 0; w != edge.kept && k < now.components; ++k)
-                EXPECT_EQ(now.values[w * now.components + k], before.values[w * now.components + k]);
+TEST(WedgeQuadrics, write_nothing_where_nothing_was_merged_or_values_were_kept) {
+    for (const bool keep_values : {false, true}) {
+        Tested tested(hills());
+        const Edge edge = inner_edge(tested);
+        const Vec3f at = keep_values ? Vec3f{} : Vec3f{0.02F, 0, 0.01F};
+        tested.quadrics.merge(tested.join(edge.removed, edge.kept), at, keep_values);
+        Mesh mesh = tested.source();
+        tested.quadrics.write(mesh);
+        for (size_t i = 0; i < mesh.attributes.size(); ++i) {
+            const Attribute &now = mesh.attributes[i], &before = tested.source().attributes[i];
+            for (size_t w = 0; w < mesh.wedge_count(); ++w) {
+                if (w == edge.kept && !keep_values) continue;
+                for (size_t k = w * now.components; k < (w + 1) * now.components; ++k)
+                    EXPECT_EQ(now.values[k], before.values[k]) << now.name;
+            }
         }
     }
 }
