@@ -353,9 +353,9 @@ uint32_t PackedCollapse::try_collapse(const Merge& m) {
     find_pairs(m);
     const std::optional<Vec3f> at = place(m, planes, offset);
     if (!at) return 0;
-    const float error = limits_error_       ? distance_after(m, *at)
-                        : planes.weight > 0 ? std::sqrt(std::max(0.0F, planes(*at)) / planes.weight)
-                                            : 0;
+    // Between vertices planes know more, at spikes distances do.
+    float error = planes.weight > 0 ? std::sqrt(std::max(0.0F, planes(*at)) / planes.weight) : 0;
+    if (limits_error_) error = std::max(error, distance_after(m, *at));
     if (error > error_limit_) return 0;
     if (mesh_.kinds[m.removed] != VertexKind::manifold) {
         const std::optional<float> away = line_away(m, *at);
