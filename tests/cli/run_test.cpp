@@ -322,7 +322,7 @@ TEST_F(CommandLine, tells_its_version_its_algorithms_and_how_it_is_used) {
     EXPECT_EQ(run({"algorithms"}), 0);
     EXPECT_THAT(out(), HasSubstr("its (default)"));
     EXPECT_EQ(run({"algorithms", "--json"}), 0);
-    EXPECT_THAT(out(), HasSubstr("\"algorithms\":[{\"id\":\"its\""));
+    EXPECT_THAT(out(), HasSubstr("{\"id\":\"its\","));
     EXPECT_EQ(run({"--help"}), 0);
     EXPECT_THAT(out(), HasSubstr("coppice optimize forest.glb -o small.glb"));
     EXPECT_EQ(run({"optimize", "--help"}), 0);
