@@ -20,7 +20,8 @@ std::span<const Parameter> parameters() {
     using Kind = Parameter::Kind;
     static const std::array<Parameter, 5> list = {{
         {.id = "quality",
-         .title = "fast, or best: more passes, each more careful",
+         .title = "fast, or best: several times as slow, by small steps that are each measured on the mesh "
+                  "as it is",
          .kind = Kind::choice,
          .default_value = "fast",
          .choices = qualities},
@@ -75,11 +76,13 @@ Simplified simplify(const Mesh& source, std::span<const Transform> instances, co
                     const ParameterValues& values, const Watch& watch) {
     watch.check();
     if (is_small_enough(source, target)) return already_smaller(source, watch);
+    const bool best = values.text("quality") == "best";
     PackedOptions options = {.weights = {.normal = *values.number("normal_weight"),
                                          .uv = *values.number("uv_weight"),
                                          .color = *values.number("color_weight")},
                              .lock_borders = values.boolean("lock_borders"),
-                             .share_of_pass = values.text("quality") == "best" ? 0.1 : 1};
+                             .share_of_pass = best ? 0.1 : 1,
+                             .measures_anew = best};
     if (!instances.empty()) options.instance_weight = relative_weight(instances);
     Simplified result;
     {

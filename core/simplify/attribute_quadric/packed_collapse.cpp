@@ -75,14 +75,25 @@ PackedCollapse::PackedCollapse(const Mesh& source, const PackedOptions& options,
     costs_.resize(mesh_.triangles.size());
     if (options_.lock_borders)
         std::replace(mesh_.kinds.begin(), mesh_.kinds.end(), VertexKind::border, VertexKind::corner);
+    find_facing(watch);
     add_planes(watch);
     add_lines(watch);
 }
 
+void PackedCollapse::find_facing(const Watch& watch) {
+    watched_resize(facing_, mesh_.vertex_count(), watch);
+    watched_loop(mesh_.triangle_count(), watch, [&](size_t t) {
+        const uint32_t* v = &mesh_.triangles[3 * t];
+        const Vec3f area = area_normal(mesh_.positions[v[0]], mesh_.positions[v[1]], mesh_.positions[v[2]]);
+        for (size_t k = 0; k < 3; ++k) facing_[v[k]] = facing_[v[k]] + area;
+    });
+    watched_loop(facing_.size(), watch, [&](size_t v) { facing_[v] = normalized(facing_[v]); });
+}
+
 // A triangle's plane passes through its corners, so about each of them it has no offset.
 void PackedCollapse::add_planes(const Watch& watch) {
+    planes_.clear();
     watched_resize(planes_, mesh_.vertex_count(), watch);
-    watched_resize(facing_, mesh_.vertex_count(), watch);
     watched_loop(mesh_.triangle_count(), watch, [&](size_t t) {
         const uint32_t* v = &mesh_.triangles[3 * t];
         const Vec3f area = area_normal(mesh_.positions[v[0]], mesh_.positions[v[1]], mesh_.positions[v[2]]);
@@ -94,12 +105,8 @@ void PackedCollapse::add_planes(const Watch& watch) {
         CentredQuadric q;
         q.add_square(n, weight);
         q.weight = weight;
-        for (size_t k = 0; k < 3; ++k) {
-            planes_[v[k]] += q;
-            facing_[v[k]] = facing_[v[k]] + area;
-        }
+        for (size_t k = 0; k < 3; ++k) planes_[v[k]] += q;
     });
-    watched_loop(facing_.size(), watch, [&](size_t v) { facing_[v] = normalized(facing_[v]); });
 }
 
 // Across borders and seams: through the edge, perpendicular to its triangle.
@@ -131,7 +138,7 @@ std::optional<PackedCollapse::Merge> PackedCollapse::merge_along(uint32_t from) 
     const uint32_t vertex = mesh_.triangles[from], next = mesh_.triangles[to];
     const VertexKind a = mesh_.kinds[vertex], b = mesh_.kinds[next];
     if (a != manifold && b != manifold) return line_merge(from, to);
-    if (next < vertex || a == complex || b == complex) return {};
+    if (next < vertex) return {};
     if (a == b) return Merge{next, vertex, true};
     return a == manifold ? Merge{vertex, next, false} : Merge{next, vertex, false};
 }
@@ -165,7 +172,7 @@ void PackedCollapse::find_pairs(const Merge& m) {
         if (!ahead && now(mesh_.spokes[s].previous) != m.kept) continue;
         const auto wedges = mesh_.wedges(m.removed, s);
         const uint32_t removed = wedge_now(wedges[0]), kept = wedge_now(wedges[ahead ? 1 : 2]);
-        if (pair_count_ > 0 && pairs_[0].removed == removed && pairs_[0].kept == kept) continue;
+        if (pair_count_ > 0 && pairs_[0].removed == removed) continue;
         if (pair_count_ == 2) return;
         WedgeQuadrics::Pair& pair = pairs_[pair_count_++];
         pair.removed = removed, pair.kept = kept;
@@ -276,12 +283,11 @@ PackedCollapse::ToGo PackedCollapse::to_go(const Target& target) const {
 }
 
 void PackedCollapse::run(const Target& target, const Watch& watch) {
-    limits_error_ = target.error_model_units.has_value();
+    carries_error_ = target.error_model_units || options_.measures_anew;
     error_limit_ = std::numeric_limits<float>::infinity();
-    if (limits_error_) {
+    if (target.error_model_units)
         error_limit_ = static_cast<float>(*target.error_model_units / std::max(mesh_.diagonal, 1e-300));
-        carried_.assign(mesh_.vertex_count(), 0);
-    }
+    carried_.assign(carries_error_ ? mesh_.vertex_count() : 0, 0);
     const double start = mesh_.triangle_count();
     patience_ = usual_patience;
     while (!is_met(target)) {
@@ -322,6 +328,11 @@ uint64_t PackedCollapse::pass(const ToGo& to_go, const Watch& watch) {
         vertices += gone > 0 ? 1 : 0;
     }
     if (triangles > 0) pack(watch);
+    if (triangles > 0 && options_.measures_anew) {
+        add_planes(watch);
+        add_lines(watch);
+        std::fill(changed_.begin(), changed_.end(), uint8_t{1});
+    }
     return triangles;
 }
 
@@ -330,7 +341,7 @@ void PackedCollapse::pack(const Watch& watch) {
         mesh_.compact(vertex_becomes_, mesh_.has_wedges() ? wedge_becomes_ : vertex_becomes_, watch);
     renumber(planes_, numbers.vertices, numbers.vertices_left, watch);
     renumber(facing_, numbers.vertices, numbers.vertices_left, watch);
-    if (limits_error_) renumber(carried_, numbers.vertices, numbers.vertices_left, watch);
+    if (carries_error_) renumber(carried_, numbers.vertices, numbers.vertices_left, watch);
     renumber(away_, numbers.vertices, numbers.vertices_left, watch);
     renumber(moved_, numbers.vertices, numbers.vertices_left, watch);
     renumber(wedge_origin_, numbers.wedges, numbers.wedges_left, watch);
@@ -355,7 +366,7 @@ uint32_t PackedCollapse::try_collapse(const Merge& m) {
     if (!at) return 0;
     // Between vertices planes know more, at spikes distances do.
     float error = planes.weight > 0 ? std::sqrt(std::max(0.0F, planes(*at)) / planes.weight) : 0;
-    if (limits_error_) error = std::max(error, distance_after(m, *at));
+    if (carries_error_) error = std::max(error, distance_after(m, *at));
     if (error > error_limit_) return 0;
     if (mesh_.kinds[m.removed] != VertexKind::manifold) {
         const std::optional<float> away = line_away(m, *at);
@@ -363,7 +374,7 @@ uint32_t PackedCollapse::try_collapse(const Merge& m) {
         away_[m.kept] = *away;
     }
     largest_error_ = std::max(largest_error_, error);
-    if (limits_error_) carried_[m.kept] = error;
+    if (carries_error_) carried_[m.kept] = error;
     apply(m, *at, planes, offset);
     return removed_ring_.count - removed_fan_.count;
 }

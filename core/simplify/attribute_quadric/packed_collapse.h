@@ -30,7 +30,11 @@ inline constexpr double packed_tolerance = 0.5;
 struct PackedOptions {
     AttributeWeights weights = {};
     bool lock_borders = false;
-    double share_of_pass = 1;  // of what is to go, at most, in one pass; smaller is slower and more exact
+    double share_of_pass = 1;  // of what is to go, about, in one pass
+    // After each pass planes are those of the mesh as it is, instead of all that a vertex has stood for
+    // (Lindstrom and Turk 1999, "Evaluation of memoryless simplification"): more exact, as long as a pass
+    // goes not far.
+    bool measures_anew = false;
     std::function<double(Vec3d)> instance_weight = {};  // as PlaneOptions has it, about 1
 };
 
@@ -79,6 +83,7 @@ class PackedCollapse {
         uint32_t four_count() const { return (count + lane_count - 1) / lane_count; }
     };
 
+    void find_facing(const Watch& watch);
     void add_planes(const Watch& watch);
     void add_lines(const Watch& watch);
     void rank(const Watch& watch);
@@ -131,9 +136,9 @@ class PackedCollapse {
     std::vector<Vec3f> facing_;           // per vertex: where the surface faced at the start; unit or zero
     std::vector<float> away_;             // per vertex of a line: how far it may be from where it was
     std::vector<bool> moved_;             // per vertex
-    bool limits_error_ = false;
+    bool carries_error_ = false;
     float error_limit_ = 0, largest_error_ = 0;  // diagonals
-    std::vector<float> carried_;                 // per vertex, with a limit: how far it may be off by now
+    std::vector<float> carried_;  // per vertex, with a limit or planes anew: how far it may be off
 
     // Of a pass.
     std::vector<float> costs_;      // per corner, of the edge to the next; none for edges that may not go
