@@ -4,17 +4,6 @@
 
 namespace coppice {
 
-namespace {
-
-double distance_to_segment(Vec3d p, Vec3d a, Vec3d b) {
-    const Vec3d edge = b - a;
-    const double squared = squared_length(edge);
-    const double along = squared > 0 ? std::clamp(dot(p - a, edge) / squared, 0.0, 1.0) : 0.0;
-    return length(p - (a + edge * along));
-}
-
-}  // namespace
-
 std::optional<double> distance_from_above(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
     const Vec3d normal = cross(b - a, c - a);
     const double size = length(normal);

@@ -1,6 +1,7 @@
 // How far the surface has moved: an estimate that is carried along with the collapses, not a bound.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -9,6 +10,15 @@
 #include "core/simplify/collapse_mesh.h"
 
 namespace coppice {
+
+// From a point to the nearest one between a and b.
+template <typename T>
+T distance_to_segment(Vec3<T> p, Vec3<T> a, Vec3<T> b) {
+    const Vec3<T> edge = b - a;
+    const T squared = squared_length(edge);
+    const T along = squared > 0 ? std::clamp<T>(dot(p - a, edge) / squared, 0, 1) : 0;
+    return length(p - (a + edge * along));
+}
 
 // Distance from a point to a triangle, inside and edges included.
 double distance_to_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c);

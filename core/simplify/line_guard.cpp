@@ -4,19 +4,9 @@
 #include <limits>
 
 #include "core/base/watched_loop.h"
+#include "core/simplify/deviation.h"
 
 namespace coppice {
-
-namespace {
-
-double distance_to_segment(Vec3d point, Vec3d a, Vec3d b) {
-    const Vec3d d = b - a;
-    const double squared = squared_length(d);
-    const double t = squared > 0 ? std::clamp(dot(point - a, d) / squared, 0.0, 1.0) : 0;
-    return length(point - (a + d * t));
-}
-
-}  // namespace
 
 LineGuard::LineGuard(const CollapseMesh& mesh, const Features& features, double tolerance, const Watch& watch)
     : mesh_(mesh),

@@ -50,13 +50,6 @@ bool may_turn(const Tip& before, const Tip& after, Vec3f ahead, Vec3f behind) {
     return !was_degenerate && agreement * old_size >= dot(before.facing, old_normal) * size;
 }
 
-float distance_to_segment(Vec3f p, Vec3f a, Vec3f b) {
-    const Vec3f edge = b - a;
-    const float squared = squared_length(edge);
-    const float along = squared > 0 ? std::clamp(dot(p - a, edge) / squared, 0.0F, 1.0F) : 0.0F;
-    return length(p - (a + edge * along));
-}
-
 }  // namespace
 
 PackedCollapse::PackedCollapse(const Mesh& source, const PackedOptions& options, const Watch& watch)
