@@ -50,7 +50,8 @@ Scene make_baked(const SampleSize& size) {
     Random random(size.seed + 1);
     const auto side = static_cast<uint32_t>(std::ceil(std::sqrt(size.copies)));
     for (uint32_t i = 0; i < size.copies; ++i) {
-        const Vec3d axis = normalized(Vec3d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1, 1)});
+        const Vec3d axis =
+            normalized(Vec3d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1, 1)});
         const double grow = random.uniform(0.6, 1.4), mirror = i % 5 == 4 ? -1 : 1;
         const double turn = random.uniform(0, 2 * std::numbers::pi);
         Mesh copy = prototypes[i % 2];

@@ -31,11 +31,11 @@ Vec3d bunny_point(double s, double t, const std::vector<double>& phases) {
     const Vec3d direction = normalized(Vec3d{p.x, p.y, p.z - (z > 0.7 ? 1.2 : 0)});
     for (const double side : {-1.0, 1.0}) {
         if (z > 0.7) {
-            p = p +
-                Vec3d{-0.35, 0.25 * side, 0.95} * bump(direction, normalized(Vec3d{-0.3, 0.5 * side, 0.8}), 0.3);
+            p = p + Vec3d{-0.35, 0.25 * side, 0.95} *
+                        bump(direction, normalized(Vec3d{-0.3, 0.5 * side, 0.8}), 0.3);
         } else {
-            p = p +
-                Vec3d{0.3, 0.1 * side, -0.1} * bump(direction, normalized(Vec3d{0.8, 0.45 * side, -0.5}), 0.35);
+            p = p + Vec3d{0.3, 0.1 * side, -0.1} *
+                        bump(direction, normalized(Vec3d{0.8, 0.45 * side, -0.5}), 0.35);
         }
     }
     if (z <= 0.7) p = p + Vec3d{-0.3, 0, 0.05} * bump(direction, normalized(Vec3d{-1, 0, -0.35}), 0.25);

@@ -149,7 +149,7 @@ Mesh grid(Grid shape) {
         Point p;
         p.position = {x, shape.height * std::sin(w * x) * std::cos(w * z), z};
         p.normal = normalized(Vec3d{-shape.height * w * std::cos(w * x) * std::cos(w * z), 1,
-                               shape.height * w * std::sin(w * x) * std::sin(w * z)});
+                                    shape.height * w * std::sin(w * x) * std::sin(w * z)});
         p.u = x;
         p.v = z;
         p.color = {x, 0.5, 0.25};
@@ -297,7 +297,8 @@ Mesh blob(Blob shape) {
     const auto at = [&](uint32_t i, uint32_t j) {
         Point p = on_sphere(i, j, shape.segments, shape.rings, 1);
         const Vec3d n = p.normal;
-        const Vec3d side = normalized(std::abs(n.y) < 0.9 ? cross(Vec3d{0, 1, 0}, n) : cross(Vec3d{1, 0, 0}, n));
+        const Vec3d side =
+            normalized(std::abs(n.y) < 0.9 ? cross(Vec3d{0, 1, 0}, n) : cross(Vec3d{1, 0, 0}, n));
         const Vec3d up = cross(n, side);
         const double h = 1e-4;
         p.position = surface(n);
