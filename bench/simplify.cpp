@@ -7,10 +7,13 @@
 #include <fmt/core.h>
 #include <meshoptimizer.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/median.h"

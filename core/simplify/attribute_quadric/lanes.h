@@ -18,6 +18,16 @@ inline float total(Lanes lanes) {
     return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
+inline Vec3f lane_of(const Vec3<Lanes>& v, uint32_t lane) {
+    return {v.x[lane], v.y[lane], v.z[lane]};
+}
+inline void set_lane(Vec3<Lanes>& v, uint32_t lane, Vec3f value) {
+    v.x[lane] = value.x, v.y[lane] = value.y, v.z[lane] = value.z;
+}
+inline Vec3<Lanes> in_all_lanes(Vec3f v) {
+    return {Lanes{} + v.x, Lanes{} + v.y, Lanes{} + v.z};
+}
+
 // Four quadrics as one of four.
 inline BasicQuadric<Lanes> together(const std::array<CentredQuadric, lane_count>& quadrics) {
     BasicQuadric<Lanes> q;

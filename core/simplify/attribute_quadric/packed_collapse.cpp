@@ -18,37 +18,11 @@ namespace coppice {
 namespace {
 
 constexpr double border_weight = 10, seam_weight = 1;  // of the plane across a line, times its edge squared
-constexpr float least_cosine_at_once = 0.25F, least_cosine_to_facing = 0.25F;
-constexpr float degenerate_aspect = 1e-6F;  // as in collapse_rules.cpp
 constexpr float no_cost = -1;
 // A pass takes nothing that costs more than this times what the last edge would that it needs.
 constexpr float usual_patience = 1.5F;
 constexpr auto box_tolerance = static_cast<float>(packed_tolerance * bounds_tolerance_of_diagonal);
 constexpr auto line_tolerance = static_cast<float>(packed_tolerance * line_tolerance_of_diagonal);
-
-bool is_degenerate(Vec3f a, Vec3f b, Vec3f c, Vec3f normal) {
-    const float longest = std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
-    return squared_length(normal) <= degenerate_aspect * degenerate_aspect * longest * longest;
-}
-
-// One corner of a triangle, and the sum of where the surface faced at all three.
-struct Tip {
-    Vec3f at, facing;
-};
-
-// Whether a triangle may have its corner elsewhere.
-bool may_turn(const Tip& before, const Tip& after, Vec3f ahead, Vec3f behind) {
-    const Vec3f old_normal = area_normal(before.at, ahead, behind),
-                normal = area_normal(after.at, ahead, behind);
-    const bool was_degenerate = is_degenerate(before.at, ahead, behind, old_normal);
-    if (is_degenerate(after.at, ahead, behind, normal)) return was_degenerate;
-    const float size = length(normal), old_size = length(old_normal);
-    if (!was_degenerate && dot(normal, old_normal) < least_cosine_at_once * size * old_size) return false;
-    const float agreement = dot(after.facing, normal);
-    if (agreement >= 3 * least_cosine_to_facing * size) return true;
-    // Where it faced away before, it may as long as that is no worse.
-    return !was_degenerate && agreement * old_size >= dot(before.facing, old_normal) * size;
-}
 
 }  // namespace
 
@@ -346,7 +320,7 @@ void PackedCollapse::pack(const Watch& watch) {
 // Triangles that went; none where a rule is broken.
 uint32_t PackedCollapse::try_collapse(const Merge& m) {
     if (!gather(m.removed, removed_ring_) || !gather(m.kept, kept_ring_)) return 0;
-    if (!has_sound_link(m)) return 0;
+    if (!has_sound_link(removed_ring_, kept_ring_, m.kept)) return 0;
     volume_ = {};
     const Vec3f origin = mesh_.positions[m.kept];
     gather_fan(m.removed, m.kept, origin, removed_ring_, removed_fan_);
@@ -375,27 +349,19 @@ uint32_t PackedCollapse::try_collapse(const Merge& m) {
 // As Deviation has it: both ends are measured from the triangles that take the place of theirs, on top of
 // what each has gathered before.
 float PackedCollapse::distance_after(const Merge& m, Vec3f at) const {
-    const Vec3d removed = to_double(removed_fan_.tip), kept = to_double(kept_fan_.tip), tip = to_double(at);
-    double from_removed = length(removed - tip), from_kept = length(kept - tip);
-    for (const Fan* fan : {&removed_fan_, &kept_fan_}) {
-        for (uint32_t i = 0; i < fan->count; ++i) {
-            const Fan::Four& four = fan->fours[i / lane_count];
-            const auto corner = [lane = i % lane_count](const Vec3<Lanes>& v) {
-                return to_double(Vec3f{v.x[lane], v.y[lane], v.z[lane]});
-            };
-            const Vec3d a = corner(four.ahead), b = corner(four.behind);
-            from_removed = std::min(from_removed, distance_to_triangle(removed, tip, a, b));
-            from_kept = std::min(from_kept, distance_to_triangle(kept, tip, a, b));
-        }
-    }
-    return static_cast<float>(
-        std::max(double{carried_[m.removed]} + from_removed, double{carried_[m.kept]} + from_kept));
+    const Vec3d tip = to_double(at);
+    const auto distance = [&](Vec3f from) {
+        return std::min(removed_fan_.distance(to_double(from), tip),
+                        kept_fan_.distance(to_double(from), tip));
+    };
+    return static_cast<float>(std::max(double{carried_[m.removed]} + distance(removed_fan_.tip),
+                                       double{carried_[m.kept]} + distance(kept_fan_.tip)));
 }
 
 // Around the inside of a chart each neighbour comes next once; elsewhere some are only previous. False where
 // there are too many.
-bool PackedCollapse::gather(uint32_t vertex, Ring& ring) const {
-    if (mesh_.valence(vertex) > Ring::most) return false;
+bool PackedCollapse::gather(uint32_t vertex, PackedRing& ring) const {
+    if (mesh_.valence(vertex) > PackedRing::most) return false;
     uint32_t count = 0;
     for (uint32_t s = mesh_.first_spoke[vertex]; s < mesh_.first_spoke[vertex + 1]; ++s) {
         const uint32_t next = now(mesh_.spokes[s].next), previous = now(mesh_.spokes[s].previous);
@@ -412,61 +378,21 @@ bool PackedCollapse::gather(uint32_t vertex, Ring& ring) const {
     return true;
 }
 
-// The ends have no neighbours in common but the corners opposite to their edge (Dey and others 1999), and no
-// two triangles come to lie on each other.
-bool PackedCollapse::has_sound_link(const Merge& m) const {
-    const Ring &r = removed_ring_, &k = kept_ring_;
-    std::array<uint32_t, 2> opposite = {no_index, no_index};
-    uint32_t at_edge = 0;
-    for (uint32_t i = 0; i < r.count; ++i) {
-        if (r.next[i] != m.kept && r.previous[i] != m.kept) continue;
-        if (at_edge == 2) return false;
-        opposite[at_edge++] = r.next[i] == m.kept ? r.previous[i] : r.next[i];
-    }
-    if (at_edge == 2 && opposite[0] == opposite[1]) return false;  // sheets back to back
-    uint32_t shared = 0;
-    for (uint32_t i = 0; i < r.neighbour_count; ++i) {
-        const uint32_t* end = k.neighbours.data() + k.neighbour_count;
-        shared += std::find(k.neighbours.data(), end, r.neighbours[i]) != end ? 1 : 0;
-    }
-    if (at_edge == 0 || shared != at_edge) return false;
-    const auto closes = [&opposite](const Ring& ring) {
-        for (uint32_t i = 0; i < ring.count; ++i) {
-            if ((ring.next[i] == opposite[0] && ring.previous[i] == opposite[1]) ||
-                (ring.next[i] == opposite[1] && ring.previous[i] == opposite[0])) {
-                return true;
-            }
-        }
-        return false;
-    };
-    return !closes(r) || !closes(k);
-}
-
-// And adds to the volume below the surface what is below these triangles, six times; each that goes once.
-void PackedCollapse::gather_fan(uint32_t vertex, uint32_t other, Vec3f origin, const Ring& ring, Fan& fan) {
-    fan.tip = mesh_.positions[vertex] - origin;
-    fan.count = 0;
+// And adds to the volume below the surface, six times, what is below these triangles. The vertex that stays
+// is the origin, so those that go, which both ends see, count once.
+void PackedCollapse::gather_fan(uint32_t vertex, uint32_t other, Vec3f origin, const PackedRing& ring,
+                                PackedFan& fan) {
+    fan.begin(mesh_.positions[vertex] - origin);
     for (uint32_t i = 0; i < ring.count; ++i) {
         const uint32_t next = ring.next[i], previous = ring.previous[i];
         const Vec3f a = mesh_.positions[next] - origin, b = mesh_.positions[previous] - origin;
         if (next == other || previous == other) {
             volume_.offset += dot(fan.tip, cross(a, b));
-            continue;
+        } else {
+            fan.add(ring, i, {a, b}, facing_[next] + facing_[previous]);
         }
-        const Vec3f facing = facing_[next] + facing_[previous];
-        Fan::Four& four = fan.fours[fan.count / lane_count];
-        const uint32_t lane = fan.count % lane_count;
-        if (lane == 0) four = {};
-        four.ahead.x[lane] = a.x, four.ahead.y[lane] = a.y, four.ahead.z[lane] = a.z;
-        four.behind.x[lane] = b.x, four.behind.y[lane] = b.y, four.behind.z[lane] = b.z;
-        four.facing.x[lane] = facing.x, four.facing.y[lane] = facing.y, four.facing.z[lane] = facing.z;
-        fan.next[fan.count] = next, fan.previous[fan.count] = previous, fan.spoke[fan.count] = ring.spoke[i];
-        ++fan.count;
     }
-    Vec3<Lanes> sum = {};
-    for (uint32_t i = 0; i < fan.four_count(); ++i)
-        sum = sum + cross(fan.fours[i].ahead, fan.fours[i].behind);
-    const Vec3f outer = {total(sum.x), total(sum.y), total(sum.z)};
+    const Vec3f outer = fan.outer();
     volume_.normal = volume_.normal + outer;
     volume_.offset += dot(fan.tip, outer);
 }
@@ -474,16 +400,11 @@ void PackedCollapse::gather_fan(uint32_t vertex, uint32_t other, Vec3f origin, c
 // The corners opposite to the edge keep a triangle.
 bool PackedCollapse::leaves_none_out(const Merge& m) const {
     if (mesh_.kinds[m.removed] == VertexKind::manifold) return true;
-    const auto is_held = [](const Fan& fan, uint32_t vertex) {
-        for (uint32_t i = 0; i < fan.count; ++i)
-            if (fan.next[i] == vertex || fan.previous[i] == vertex) return true;
-        return false;
-    };
     for (uint32_t i = 0; i < removed_ring_.count; ++i) {
         const uint32_t next = removed_ring_.next[i], previous = removed_ring_.previous[i];
         if (next != m.kept && previous != m.kept) continue;
         const uint32_t opposite = next == m.kept ? previous : next;
-        if (!is_held(removed_fan_, opposite) && !is_held(kept_fan_, opposite)) return false;
+        if (!removed_fan_.holds(opposite) && !kept_fan_.holds(opposite)) return false;
     }
     return true;
 }
@@ -513,40 +434,6 @@ bool PackedCollapse::is_in_box(Vec3f point) const {
            std::abs(point.z) <= half.z + box_tolerance;
 }
 
-// No triangle turns by more than about 75 degrees, now or away from where the surface faced at its corners at
-// the start; none becomes degenerate. Cosines are compared as squares; what fails is looked at again one by
-// one.
-bool PackedCollapse::keeps_orientation(const Fan& fan, Vec3f facing_before, Vec3f facing, Vec3f at) const {
-    const auto spread = [](Vec3f v) { return Vec3<Lanes>{Lanes{} + v.x, Lanes{} + v.y, Lanes{} + v.z}; };
-    const Vec3<Lanes> point = spread(at), tip = spread(fan.tip), own = spread(facing);
-    for (uint32_t i = 0; i < fan.four_count(); ++i) {
-        const Fan::Four& four = fan.fours[i];
-        const Vec3<Lanes> a = four.ahead - point, b = four.behind - point;
-        const Vec3<Lanes> after = cross(a, b), before = cross(four.ahead - tip, four.behind - tip);
-        const Lanes squared = squared_length(after);
-        const Lanes turned = dot(after, before), agreement = dot(own + four.facing, after);
-        const Lanes sides = squared_length(a) + squared_length(b);
-        const auto is_sound =
-            (turned > 0) & (agreement > 0) &
-            (turned * turned >
-             least_cosine_at_once * least_cosine_at_once * squared * squared_length(before)) &
-            (agreement * agreement > 9 * least_cosine_to_facing * least_cosine_to_facing * squared) &
-            (squared > 4 * degenerate_aspect * degenerate_aspect * sides * sides);
-        for (uint32_t lane = 0; lane < lane_count && i * lane_count + lane < fan.count; ++lane) {
-            if (is_sound[lane] != 0) continue;
-            const auto corner = [lane](const Vec3<Lanes>& v) {
-                return Vec3f{v.x[lane], v.y[lane], v.z[lane]};
-            };
-            const Vec3f others = corner(four.facing);
-            if (!may_turn({fan.tip, facing_before + others}, {at, facing + others}, corner(four.ahead),
-                          corner(four.behind))) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
 // No triangle of the texture is mirrored.
 bool PackedCollapse::keeps_texture(const Merge& m, Vec3f at) const {
     if (attributes_.uv_sets() == 0) return true;
@@ -554,7 +441,7 @@ bool PackedCollapse::keeps_texture(const Merge& m, Vec3f at) const {
                          const std::array<float, 2>& c) {
         return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     };
-    const auto keeps = [&](const Fan& fan, uint32_t vertex, uint32_t WedgeQuadrics::Pair::*end) {
+    const auto keeps = [&](const PackedFan& fan, uint32_t vertex, uint32_t WedgeQuadrics::Pair::*end) {
         for (uint32_t i = 0; i < fan.count; ++i) {
             const auto wedges = mesh_.wedges(vertex, fan.spoke[i]);
             const uint32_t own = wedge_now(wedges[0]), next = wedge_now(wedges[1]),

@@ -19,6 +19,7 @@
 #include "core/simplify/attribute_quadric/centred_quadric.h"
 #include "core/simplify/attribute_quadric/lanes.h"
 #include "core/simplify/attribute_quadric/packed_mesh.h"
+#include "core/simplify/attribute_quadric/packed_ring.h"
 #include "core/simplify/attribute_quadric/wedge_quadrics.h"
 #include "core/simplify/wedge_values.h"
 
@@ -60,28 +61,6 @@ class PackedCollapse {
         uint32_t removed = no_index, kept = no_index;
         bool moves = false;
     };
-    // The triangles at a vertex as they are now, in the course of a pass.
-    struct Ring {
-        static constexpr uint32_t most = 64;
-        std::array<uint32_t, most> next = {}, previous = {}, spoke = {};
-        uint32_t count = 0;
-        std::array<uint32_t, 2 * most> neighbours = {};
-        uint32_t neighbour_count = 0;
-    };
-    // Those of them that stay, in fours, seen from where the vertex that stays is before the collapse. What
-    // is left over in the last four has no area.
-    struct Fan {
-        struct Four {
-            Vec3<Lanes> ahead, behind;  // the other two corners
-            Vec3<Lanes> facing;         // summed over these
-        };
-        Vec3f tip;  // the vertex
-        std::array<Four, Ring::most / lane_count> fours;
-        std::array<uint32_t, Ring::most> next, previous, spoke;
-        uint32_t count = 0;
-
-        uint32_t four_count() const { return (count + lane_count - 1) / lane_count; }
-    };
 
     void find_facing(const Watch& watch);
     void add_planes(const Watch& watch);
@@ -106,12 +85,10 @@ class PackedCollapse {
     bool is_in_box(Vec3f point) const;
     uint32_t try_collapse(const Merge& merge);
     float distance_after(const Merge& merge, Vec3f at) const;
-    bool gather(uint32_t vertex, Ring& ring) const;
-    bool has_sound_link(const Merge& merge) const;
-    void gather_fan(uint32_t vertex, uint32_t other, Vec3f origin, const Ring& ring, Fan& fan);
+    bool gather(uint32_t vertex, PackedRing& ring) const;
+    void gather_fan(uint32_t vertex, uint32_t other, Vec3f origin, const PackedRing& ring, PackedFan& fan);
     bool leaves_none_out(const Merge& merge) const;
     std::optional<Vec3f> place(const Merge& merge, const CentredQuadric& q, Vec3f offset);
-    bool keeps_orientation(const Fan& fan, Vec3f facing_before, Vec3f facing, Vec3f at) const;
     bool keeps_texture(const Merge& merge, Vec3f at) const;
     std::optional<float> line_away(const Merge& merge, Vec3f at) const;
     uint32_t line_neighbour(uint32_t vertex, uint32_t but) const;
@@ -150,8 +127,8 @@ class PackedCollapse {
     // Of a collapse.
     std::array<WedgeQuadrics::Pair, 2> pairs_;
     uint32_t pair_count_ = 0;
-    Ring removed_ring_, kept_ring_;
-    Fan removed_fan_, kept_fan_;
+    PackedRing removed_ring_, kept_ring_;  // as they are now, in the course of the pass
+    PackedFan removed_fan_, kept_fan_;
     Constraint<float> volume_;
 };
 
