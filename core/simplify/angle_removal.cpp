@@ -152,7 +152,7 @@ class AngleStage final : public ClusterStage {
         for (uint32_t i = 0; i < fan_size_; ++i) {
             for (uint32_t j = all ? i + 1 : 0; j < fan_size_; ++j) {
                 if (!all && fan[j].begins != fan[i].ends) continue;
-                use(cosine_between(fan[i].normal, fan[j].normal));
+                use(dot(fan[i].normal, fan[j].normal));
                 if (!all) break;
             }
         }

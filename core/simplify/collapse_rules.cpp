@@ -161,17 +161,30 @@ bool CollapseRules::closes_border(uint32_t removed, uint32_t kept, uint32_t comm
     return one.runs_outwards != other.runs_outwards && one.chart == other.chart;
 }
 
-bool CollapseRules::closes_or_leads_on(uint32_t removed, uint32_t kept, double distance) const {
+bool CollapseRules::closes_or_leads_on(uint32_t removed, uint32_t kept, double distance) {
     if (!zipped_.empty()) return true;
-    for (const uint32_t x : around_removed_.all()) {
-        if (around_removed_.uses(x) != 1) continue;
-        for (const uint32_t y : around_kept_.all()) {
-            if (around_kept_.uses(y) != 1 || length(mesh_.position(x) - mesh_.position(y)) > distance)
-                continue;
-            if (spoke(removed, x).runs_outwards != spoke(kept, y).runs_outwards) return true;
+    gather_border_ends(removed, around_removed_, removed_ends_);
+    gather_border_ends(kept, around_kept_, kept_ends_);
+    searched_ += removed_ends_.size() * kept_ends_.size();
+    for (const BorderEnd& x : removed_ends_) {
+        for (const BorderEnd& y : kept_ends_) {
+            if (x.runs_outwards == y.runs_outwards) continue;
+            if (length(mesh_.position(x.vertex) - mesh_.position(y.vertex)) <= distance) return true;
         }
     }
     return false;
+}
+
+// The other ends of the edges of one triangle.
+void CollapseRules::gather_border_ends(uint32_t vertex, const Neighbours& around,
+                                       std::vector<BorderEnd>& ends) const {
+    ends.clear();
+    for (uint32_t c = mesh_.first_corner(vertex); c != no_index; c = mesh_.corner_after(c)) {
+        const uint32_t next = mesh_.corner_vertex(CollapseMesh::next_corner(c));
+        const uint32_t previous = mesh_.corner_vertex(CollapseMesh::previous_corner(c));
+        if (around.uses(next) == 1) ends.push_back({next, true});
+        if (around.uses(previous) == 1) ends.push_back({previous, false});
+    }
 }
 
 // Triangles at the edge from `kept` to a vertex.

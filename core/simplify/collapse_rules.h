@@ -72,7 +72,7 @@ class CollapseRules {
     // Whether a join closes a border, or could be followed by one that does: where borders of both run along
     // each other, no farther apart than the distance. Else two parts would touch in a vertex, which holds
     // both and saves no triangle. After keeps_topology().
-    bool closes_or_leads_on(uint32_t removed, uint32_t kept, double distance) const;
+    bool closes_or_leads_on(uint32_t removed, uint32_t kept, double distance);
     // The first part of kinds_allow(), all that there is for a join.
     bool kinds_allow_join(uint32_t removed, uint32_t kept) const;
 
@@ -90,6 +90,12 @@ class CollapseRules {
     bool keeps_orientation(uint32_t removed, uint32_t kept) const;
     uint32_t edge_uses(uint32_t vertex, uint32_t kept, bool ring_gathered);
 
+    struct BorderEnd {
+        uint32_t vertex = 0;
+        bool runs_outwards = false;
+    };
+    void gather_border_ends(uint32_t vertex, const Neighbours& around, std::vector<BorderEnd>& ends) const;
+
     const CollapseMesh& mesh_;
     std::vector<VertexKind> kinds_;
     std::vector<Vec3f> first_normals_;  // see first_normals()
@@ -97,6 +103,7 @@ class CollapseRules {
     Neighbours around_removed_, around_kept_;
     std::vector<uint32_t> shared_;  // per neighbour of `removed`: triangles that also hold `kept`
     std::vector<uint32_t> zipped_;  // see zipped()
+    std::vector<BorderEnd> removed_ends_, kept_ends_;
     uint64_t searched_ = 0;
 };
 

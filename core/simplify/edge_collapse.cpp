@@ -191,7 +191,7 @@ bool EdgeCollapse::lines_allow(const Merge& m) const {
     return !is_on_line(m.kept) || lines_.may_merge(ends, m.placed.at);
 }
 
-bool EdgeCollapse::may_join(const Merge& m) const {
+bool EdgeCollapse::may_join(const Merge& m) {
     return rules_.closes_or_leads_on(m.removed, m.kept, joins_->pairs.distance()) && keeps_area(m);
 }
 
@@ -309,6 +309,10 @@ void EdgeCollapse::settle(uint32_t vertex) {
 // What an end point costs does not matter any more.
 std::optional<EdgeCollapse::Merge> EdgeCollapse::merge_again(uint32_t owner, uint32_t other, Tie tie) {
     if (options_.freedom != Freedom::end_point) return best_merge(owner, other, tie, false);
+    if (joins_ && !allowed(owner, other, tie, false)) {  // kinds change where borders were joined
+        refusals_.add(Refusal::locked);
+        return {};
+    }
     return Merge{owner, other, {mesh_.position(other), 0}, tie == Tie::nearness, tie};
 }
 

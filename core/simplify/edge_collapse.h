@@ -111,7 +111,7 @@ class EdgeCollapse : public GuardedMesh {
     Refusal check_end_point(uint32_t removed, uint32_t kept);
     Refusal check_move(const Merge& merge);
     bool lines_allow(const Merge& merge) const;
-    bool may_join(const Merge& merge) const;
+    bool may_join(const Merge& merge);
     bool keeps_area(const Merge& merge) const;
     bool may_move_fan(uint32_t vertex, uint32_t other, const Merge& merge);
     Vec3f mean_facing(const Merge& merge) const;

@@ -46,8 +46,8 @@ Simplified finished(const EdgeCollapse& work, const Watch& watch) {
 }
 
 // The pair distance doubles while nothing else is left, and while that pays. Ends that are farther apart than
-// twice what lines may move are never joined, nor those that the error parts. Joins alone save nothing: where
-// no triangle goes, the result is what was there before.
+// twice what lines may move are never joined, nor those that the error parts. Joins alone save no triangle:
+// where none goes and no vertices are wanted, the result is what was there before.
 Simplified run(EdgeCollapse& work, double pair_distance, const Target& target, const Watch& watch) {
     CheapestFirst order(work, watch);
     order.run();
@@ -65,7 +65,7 @@ Simplified run(EdgeCollapse& work, double pair_distance, const Target& target, c
         if (order.empty()) continue;  // none are so near
         const uint32_t before = mesh.live_triangles();
         order.drain();
-        if (mesh.live_triangles() < best.mesh.triangle_count()) best = finished(work, watch);
+        if (work.done() || mesh.live_triangles() < best.mesh.triangle_count()) best = finished(work, watch);
         if (before - mesh.live_triangles() < before / 50) break;
     }
     return best;

@@ -51,11 +51,12 @@ VertexPairs::VertexPairs(const CollapseMesh& mesh, const std::vector<FeatureEdge
 
 void VertexPairs::set_distance(double distance, const Watch& watch) {
     distance_ = distance;
-    edge_ = std::max(distance, mesh_.box().diagonal() / (most_cells_across / 2));
+    const double diagonal = mesh_.box().diagonal();
+    edge_ = diagonal > 0 ? std::clamp(distance, diagonal / (most_cells_across / 2), diagonal) : distance;
     const auto is_gone = [this](uint32_t v) { return !contains(v); };
     members_.erase(std::remove_if(members_.begin(), members_.end(), is_gone), members_.end());
     fill(watch);
-    while (members_.size() > crowded * filled_ && mesh_.box().diagonal() < edge_ * most_cells_across / 4) {
+    while (members_.size() > crowded * filled_ && diagonal < edge_ * most_cells_across / 4) {
         edge_ /= 2;
         fill(watch);
     }

@@ -85,7 +85,7 @@ bool VertexRemoval::find_parts(uint32_t vertex) {
     uint32_t found = 0;
     for (uint32_t i = 0, before = count - 1; i < count; before = i++) {
         const Vec3f one = normals_[fan_.corner(before) / 3], other = normals_[fan_.corner(i) / 3];
-        const bool breaks = on_seam ? is_seam(i) : cosine_between(one, other) < crease_cosine;
+        const bool breaks = on_seam ? is_seam(i) : dot(one, other) < crease_cosine;
         if (!breaks) continue;
         if (found < 2) spokes[found] = i;
         ++found;
@@ -152,7 +152,7 @@ uint32_t VertexRemoval::wedge_at(const Part& part, uint32_t i, Vec3f normal) con
     const uint32_t ends = mesh_.corner_wedge(CollapseMesh::previous_corner(before));
     if (begins_path || begins == ends) return begins;
     if (ends_path) return ends;
-    const auto facing = [&](uint32_t corner) { return cosine_between(normals_[corner / 3], normal); };
+    const auto facing = [&](uint32_t corner) { return dot(normals_[corner / 3], normal); };
     return facing(after) >= facing(before) ? begins : ends;
 }
 

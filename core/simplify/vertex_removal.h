@@ -22,10 +22,6 @@
 
 namespace coppice {
 
-inline float cosine_between(Vec3f a, Vec3f b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 class VertexRemoval : public GuardedMesh {
   public:
     // Keeps references to the source and the target. lines: vertices of borders and seams may go.

@@ -49,6 +49,7 @@ TEST_P(Cancellation, comes_at_the_look_that_follows_the_request) {
     }
 }
 
+// Of nine times the triangles. How many rounds a search or a run takes varies by a factor of two and more.
 TEST_P(Cancellation, is_looked_for_more_often_on_a_larger_mesh) {
     const Mesh small = sphere(80), large = sphere(240);
     const size_t of_small = count_looks(GetParam(), small), of_large = count_looks(GetParam(), large);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "core/mesh/adjacency.h"
@@ -111,16 +112,37 @@ TEST(VertexPairs, are_on_borders_alone) {
     EXPECT_EQ(paired, 16U);
 }
 
-TEST(VertexPairs, are_found_in_bounded_time_where_all_are_in_one_place) {
+TEST(VertexPairs, are_the_same_for_all_distances_beyond_the_mesh) {
     const Mesh mesh = confetti(20000);
-    const Pairs pairs(mesh, 100);
-    for (uint32_t v = 0; v < pairs.vertex_count(); ++v) ASSERT_LE(pairs.of(v).size(), 8U);
+    const Pairs all(mesh, 2);
+    for (const double distance : {1e308, std::numeric_limits<double>::infinity()}) {
+        const Pairs pairs(mesh, distance);
+        for (uint32_t v = 0; v < pairs.vertex_count(); ++v) {
+            ASSERT_FALSE(pairs.of(v).empty());
+            ASSERT_EQ(pairs.of(v), all.of(v)) << distance;
+        }
+    }
+}
+
+TEST(VertexPairs, are_found_where_all_are_in_one_place) {
+    Mesh mesh = confetti(2000);
+    for (Vec3f& p : mesh.positions) p = {1, 2, 3};
+    const Pairs pairs(mesh, 0.5);
+    for (uint32_t v = 0; v < pairs.vertex_count(); ++v) ASSERT_EQ(pairs.of(v).size(), 8U);
 }
 
 constexpr size_t tiles_alone = 64;  // triangles of shapes::tiles() once nothing but edges is left to collapse
 
 Simplified quadric_to(const Mesh& mesh, uint64_t triangles, const std::string& pair_distance) {
     return test::run_algorithm(quadric(), mesh, {.triangles = triangles}, {{"pair_distance", pair_distance}});
+}
+
+TEST(Joining, counts_where_vertices_are_wanted) {
+    const Mesh mesh = shapes::tiles();  // of which edges leave three vertices each
+    const Target target = {.vertices = 3 * tiles_alone - 40};
+    const Simplified s = test::run_algorithm(gaps(), mesh, target);
+    EXPECT_EQ(s.stop_reason, StopReason::target);
+    EXPECT_LE(s.mesh.vertex_count(), *target.vertices);
 }
 
 TEST(Joining, goes_below_what_edges_leave_of_many_parts) {
